@@ -43,12 +43,15 @@ struct CallOptions {
 
 /// The options among the keyword arguments. Raises TypeError for other arguments.
 [[nodiscard]] CallOptions options_of(const py::kwargs& arguments);
+/// The options of the library for the arguments of lsys.compile(), which have the same meaning.
 [[nodiscard]] lsys::GrammarOptions grammar_options(const std::map<std::string, float>& defines,
                                                    const py::dict& settings,
                                                    std::optional<std::uint32_t> generations,
                                                    const std::string& dialect,
                                                    const std::string& system,
                                                    bool bug_compatible);
+/// The options of the library for the arguments of Plant.mesh(). Raises ValueError for an unknown
+/// `method`.
 [[nodiscard]] lsys::MeshOptions mesh_options(const std::string& method,
                                              std::uint32_t sides,
                                              float deviation,
@@ -61,7 +64,7 @@ struct CallOptions {
 [[nodiscard]] bool is_main_thread();
 /// The argument `environment`: a dictionary from names to callables, or None. Raises TypeError for
 /// other values. Returns a copy.
-[[nodiscard]] py::dict environments_of(const py::handle& given);
+[[nodiscard]] py::dict environments_of(const py::handle& argument);
 /// Adds the functions of environments_of() to the host. `functions` outlives the call.
 void add_environments(const py::dict& functions, lsys::Host& host);
 /// Calls read(path), which returns the contents of the file as bytes or text, or None for a missing
@@ -213,7 +216,7 @@ auto run(const CallOptions& options, const Work& work) {
     return std::move(*result);
 }
 
-/// The value of an outcome; raises an exception with the messages if there is none. Warnings become
+/// The value of an outcome; without a value raises an exception with the messages. Warnings become
 /// warnings of Python.
 template <typename T>
 T value_of(lsys::Outcome<T> outcome) {
@@ -224,6 +227,7 @@ T value_of(lsys::Outcome<T> outcome) {
     return std::move(*outcome);
 }
 
+// Each of these adds classes and functions to the Python module.
 void bind_messages(py::module_& module);
 void bind_grammar(py::module_& module);
 void bind_word(py::module_& module);

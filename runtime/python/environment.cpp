@@ -74,15 +74,15 @@ lsys::EnvironmentAnswers answers_by(const py::function& answer,
 
 } // namespace
 
-py::dict environments_of(const py::handle& given) {
-    if (given.is_none()) {
+py::dict environments_of(const py::handle& argument) {
+    if (argument.is_none()) {
         return {};
     }
-    if (!py::isinstance<py::dict>(given)) {
+    if (!py::isinstance<py::dict>(argument)) {
         throw py::type_error("environment is a dictionary from names to functions");
     }
     // A copy, whose functions live until the end of the call.
-    auto copy = py::reinterpret_steal<py::dict>(PyDict_Copy(given.ptr()));
+    auto copy = py::reinterpret_steal<py::dict>(PyDict_Copy(argument.ptr()));
     for (const auto& [key, function] : copy) {
         if (!py::isinstance<py::str>(key) || PyCallable_Check(function.ptr()) == 0) {
             throw py::type_error("environment is a dictionary from names to functions");

@@ -9,6 +9,7 @@ namespace lsys_python {
 
 namespace {
 
+// The numpy types of the library's structs, with the same layout.
 py::dtype tree_type() {
     using lsys::Tree;
     return structure({{"position", "(3,)f4", offsetof(Tree, position)},

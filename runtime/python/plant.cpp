@@ -10,6 +10,7 @@ namespace lsys_python {
 
 namespace {
 
+// The numpy types of the library's structs, with the same layout.
 py::dtype segment_type() {
     using lsys::Segment;
     return structure({{"base", "(3,)f4", offsetof(Segment, base)},

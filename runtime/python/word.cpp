@@ -9,6 +9,7 @@ namespace lsys_python {
 
 namespace {
 
+/// The numpy type of codes of `bytes` bytes each.
 py::dtype code_type(std::uint32_t bytes) {
     return bytes == 1   ? py::dtype::of<std::uint8_t>()
            : bytes == 2 ? py::dtype::of<std::uint16_t>()
@@ -20,6 +21,7 @@ class WordIterator {
 public:
     explicit WordIterator(lsys::Word word) : word_(std::move(word)) {}
 
+    /// Name and parameters of the next module. Raises StopIteration at the end.
     py::tuple next() {
         if (position_ == word_.size()) {
             throw py::stop_iteration();
@@ -51,8 +53,8 @@ private:
     }
 
     lsys::Word word_;
-    std::uint64_t position_ = 0;
-    std::uint64_t parameter_ = 0;
+    std::uint64_t position_ = 0;  // of the next module in the word
+    std::uint64_t parameter_ = 0; // index of its first parameter in Word::parameters()
 };
 
 } // namespace

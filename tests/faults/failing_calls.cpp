@@ -60,9 +60,9 @@ struct Fault {
 };
 
 Fault fault;
-std::atomic<std::uint64_t> own_counts[CallCount];
-std::atomic<std::uint64_t>* counts = own_counts;
-std::atomic<bool> is_ready = false;
+std::atomic<std::uint64_t> unshared_counts[CallCount]; // used without LSYS_FAULT_COUNTS
+std::atomic<std::uint64_t>* counts = unshared_counts;  // else the mapped file
+std::atomic<bool> is_ready = false;                    // begin() has run
 int order_file = -1; // descriptor for the order of calls; -1: not recorded
 
 Fault parse(const char* text) {
@@ -89,8 +89,9 @@ __attribute__((constructor)) void begin() {
     }
     if (const char* const path = std::getenv("LSYS_FAULT_COUNTS")) {
         const long file = syscall(SYS_openat, AT_FDCWD, path, O_RDWR | O_CLOEXEC, 0);
-        void* const mapped = reinterpret_cast<void*>(syscall(
-            SYS_mmap, nullptr, sizeof own_counts, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
+        void* const mapped =
+            reinterpret_cast<void*>(syscall(SYS_mmap, nullptr, sizeof unshared_counts,
+                                            PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
         if (mapped != MAP_FAILED) {
             counts = static_cast<std::atomic<std::uint64_t>*>(mapped);
         }

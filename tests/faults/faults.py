@@ -119,6 +119,8 @@ def commands():
 
 
 class Outcome:
+    """The exit status of a run or "hang", its output, and the files in its folder by name."""
+
     def __init__(self, status, out, err, files):
         self.status = status
         self.out = out
@@ -137,6 +139,8 @@ def files_in(folder):
 
 
 class Bench:
+    """Runs commands in folders of their own, with the library of failing_calls.cpp."""
+
     def __init__(self, lsc, library):
         self.lsc = lsc
         self.library = library
@@ -155,6 +159,7 @@ class Bench:
         return folder
 
     def start(self, command, folder, fault, counts, order=""):
+        """Starts a command. `fault`: `call:number:error`; `counts`, `order`: files for numbers and order of calls."""
         environment = {"PATH": os.environ["PATH"], "LD_PRELOAD": self.library}
         if fault:
             environment["LSYS_FAULT"] = fault
@@ -166,6 +171,7 @@ class Bench:
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def run(self, command, old=(), fault="", counts="", order=""):
+        """Returns the files before a run, and its outcome. Arguments: as in prepare() and start()."""
         folder = self.prepare(command, old)
         before = files_in(folder)
         process = self.start(command, folder, fault, counts, order)
@@ -199,6 +205,7 @@ class Bench:
         return [(call, os.path.basename(path), os.path.basename(second)) for call, path, second in fields]
 
     def kill(self, command, old, seconds):
+        """Returns the same for a run that SIGKILL ends after `seconds`."""
         folder = self.prepare(command, old)
         before = files_in(folder)
         process = self.start(command, folder, "", "")
@@ -268,11 +275,13 @@ def mistakes_of_order(calls, files):
 
 
 def is_temporary(name, files):
+    """Whether `name` is that of a temporary file of one of `files`."""
     base, _, letters = name.rpartition(".")
     return base in files and len(letters) >= TEMPORARY_LETTERS and letters.isalnum()
 
 
 def difference(expected, found):
+    """Names of the files that are missing, new or different."""
     changed = [name for name in sorted(expected.keys() | found.keys()) if expected.get(name) != found.get(name)]
     return ", ".join(changed)
 

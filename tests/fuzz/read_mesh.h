@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mesh must hold that a reader of files has accepted.
+// Checks of a mesh that a reader of files has accepted.
 #pragma once
 
 #include "runtime/meshing/mesh.h"
@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <cstdlib>
 
+/// Limit of memory for the readers of meshes.
 inline constexpr std::uint64_t kMaxMeshBytes = 16U << 20U;
+/// Aborts unless arrays have equal lengths, indices are in range, positions are finite, and normals
+/// are unit vectors.
 
 inline void check_mesh(const lsys::Result<lsys::UserMesh>& read) {
     if (!read) {

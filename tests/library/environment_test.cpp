@@ -134,7 +134,8 @@ TEST_CASE("an exception of a function ends the call") {
 
 namespace {
 
-struct Given {
+/// What answer_height() answers, and the status that it returns.
+struct HeightAnswer {
     std::vector<double> numbers;
     int status = 0;
 };
@@ -143,22 +144,22 @@ int answer_height(void* user,
                   const lsys_environment_query* query,
                   const double** numbers,
                   size_t* size) {
-    Given& given = *static_cast<Given*>(user);
-    given.numbers.clear();
+    HeightAnswer& answer = *static_cast<HeightAnswer*>(user);
+    answer.numbers.clear();
     for (size_t i = 0; i < query->place_count; ++i) {
-        given.numbers.push_back(query->places[i].position[1]);
-        given.numbers.push_back(query->parameters[query->offsets[i] + 1] * 2.0);
+        answer.numbers.push_back(query->places[i].position[1]);
+        answer.numbers.push_back(query->parameters[query->offsets[i] + 1] * 2.0);
     }
-    *numbers = given.numbers.data();
+    *numbers = answer.numbers.data();
     *size = 2;
-    return given.status;
+    return answer.status;
 }
 
 } // namespace
 
 TEST_CASE("a function of C answers an environment") {
-    Given given;
-    const lsys_environment environment{"light", answer_height, &given};
+    HeightAnswer answer;
+    const lsys_environment environment{"light", answer_height, &answer};
     lsys_project project = LSYS_PROJECT_DEFAULTS;
     project.environments = &environment;
     project.environment_count = 1;
@@ -168,9 +169,9 @@ TEST_CASE("a function of C answers an environment") {
                               nullptr) == LSYS_OK);
     lsys_word* word = nullptr;
     REQUIRE(lsys_derive(grammar, 0, nullptr, &project, &word, nullptr) == LSYS_OK);
-    CHECK(given.numbers == std::vector<double>{1.0, 14.0});
+    CHECK(answer.numbers == std::vector<double>{1.0, 14.0});
     lsys_word_free(word);
-    given.status = 3;
+    answer.status = 3;
     lsys_messages* messages = nullptr;
     CHECK(lsys_derive(grammar, 0, nullptr, &project, &word, &messages) == LSYS_DIAGNOSED);
     CHECK(std::string(lsys_messages_text(messages)).find("it returned 3") != std::string::npos);

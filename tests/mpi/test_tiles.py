@@ -26,6 +26,7 @@ PATIENCE = 120
 
 
 def options(size=300):
+    """Arguments that make tiles of a forest with `size` metres a side."""
     return ["tiles", "tree.lsys", "--placement", "jittered", "--spacing", "4", "--size", str(size), "--heroes", "2",
             "--triangles", "20000", "--error", "0"]
 
@@ -42,6 +43,7 @@ def files_of(folder):
 
 
 def stamps_of(folder):
+    """Inode and time of each complete file, which tell whether it was written again."""
     stamps = {}
     for path in folder.rglob("*"):
         if path.is_file() and not TEMPORARY.search(path.name):
@@ -87,6 +89,7 @@ class Tiles(unittest.TestCase):
         subprocess.run([LSC, *options(), *more], cwd=cls.folder, check=True)
 
     def mpi(self, ranks, *arguments, begin=True):
+        """Runs lsc-mpi with a number of processes. `begin`: its arguments begin with options()."""
         words = [*(options() if begin else []), *arguments]
         return subprocess.run([MPIRUN, "-n", str(ranks), LSC_MPI, *words], cwd=self.folder, env=environment(),
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PATIENCE)

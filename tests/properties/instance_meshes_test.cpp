@@ -312,20 +312,20 @@ TEST_CASE("the boxes of an instance are separate closed surfaces") {
     const InstanceMeshes meshes = meshes_of(planted.cache, options);
     std::size_t instances = 0;
     for (std::uint32_t i = 0; i < planted.cache.instances.size(); ++i) {
-        Mesh own; // only the bark of the instance
-        own.positions = meshes.mesh.positions;
+        Mesh bark; // only the bark of the instance
+        bark.positions = meshes.mesh.positions;
         for (const MeshPart& part : meshes.parts_of(i)) {
             for (std::uint64_t k = 0;
                  k < part.index_count &&
                  meshes.mesh.materials[part.material].kind == MaterialKind::Bark;
                  ++k) {
-                own.indices.push_back(meshes.mesh.indices[part.first_index + k]);
+                bark.indices.push_back(meshes.mesh.indices[part.first_index + k]);
             }
         }
         INFO(grammar << " rho " << rho << " instance " << i);
         // Branches that begin at one place share edges there, so edges need only be balanced.
-        REQUIRE(test::topology_of(own).unbalanced_edges == 0);
-        if (own.indices.size() != 0) {
+        REQUIRE(test::topology_of(bark).unbalanced_edges == 0);
+        if (bark.indices.size() != 0) {
             ++instances;
             CHECK(test::volume_of(own) > 0.0);
         }

@@ -327,7 +327,7 @@ private:
         }
     }
 
-    bool keeps_all_;
+    bool keeps_all_;                      // else kept_ ends at about 4000 bytes
     std::map<std::string, Count> counts_; // by kind of mutant
     std::string kept_;                    // texts about mutants without the right repair
 };

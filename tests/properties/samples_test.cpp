@@ -97,7 +97,8 @@ TEST_CASE("a dumped word parses as the axiom of the same file and is dumped unch
         const std::string folder = sample.file.parent_path().string();
         const LscRun again = run_lsc({"dump", "--quiet", "-n", "0", "--base", folder, "-"}, *text);
         if (has_markers(source)) {
-            // An axiom senses; it meets the markers that the generations before have used up.
+            // An axiom senses all markers, also those that had vanished before the dump, so its
+            // answers may differ.
             INFO(again.err);
             CHECK(again.status == 0);
             continue;
@@ -164,13 +165,13 @@ TEST_CASE("predicted counts are those of the words") {
 TEST_CASE("a compiled grammar derives the word of its source") {
     for (const Sample& sample : all_samples()) {
         INFO(sample.file);
-        // What a plant senses is read beside the compiled file.
+        // Files that environments name must lie beside the compiled file.
         const ScratchFolder folder;
         std::filesystem::copy(sample.file.parent_path(), folder.path());
         const std::string compiled = folder / "sample.lsb";
         const std::string n = few_generations(sample);
         if (tests::read_text(sample.file).find("#sense ") != std::string::npos) {
-            // Its turtle walks while it grows, and reads meshes beside the compiled file.
+            // The turtle walks during the derivation, and reads meshes beside the compiled file.
             std::filesystem::copy(sample.file.parent_path(), folder.path(),
                                   std::filesystem::copy_options::recursive |
                                       std::filesystem::copy_options::overwrite_existing);

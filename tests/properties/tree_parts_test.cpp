@@ -67,29 +67,29 @@ double distance_to(const TreeSegment& segment, const glm::dvec3& point) {
 
 /// The largest distance from an end of a segment of `from` to the nearest segment of `to`.
 double farthest(const std::vector<TreeSegment>& from, const std::vector<TreeSegment>& to) {
-    double all = 0.0;
+    double largest = 0.0;
     for (const TreeSegment& segment : from) {
         for (const glm::dvec3& point : {segment.base, segment.tip}) {
             double nearest = std::numeric_limits<double>::infinity();
             for (const TreeSegment& other : to) {
                 nearest = std::min(nearest, distance_to(other, point));
             }
-            all = std::max(all, nearest);
+            largest = std::max(largest, nearest);
         }
     }
-    return all;
+    return largest;
 }
 
 /// For each instance, the distance from its entry to its farthest point.
-std::vector<double> own_reach(const InstanceCache& cache) {
+std::vector<double> surface_reaches(const InstanceCache& cache) {
     const PartSkeletons skeletons(cache);
     std::vector<double> reach;
     for (std::uint32_t i = 0; i < cache.instances.size(); ++i) {
-        double& all = reach.emplace_back(0.0);
+        double& largest = reach.emplace_back(0.0);
         for (const TreeSegment& segment : segments_of(skeletons.alone(i))) {
             const glm::dvec3& entry = cache.instances[i].position;
-            all = std::max(
-                {all, glm::distance(segment.base, entry), glm::distance(segment.tip, entry)});
+            largest = std::max(
+                {largest, glm::distance(segment.base, entry), glm::distance(segment.tip, entry)});
         }
     }
     return reach;
@@ -191,7 +191,7 @@ TEST_CASE("no tree goes beyond the bounds of its cache") {
     const float rho = GENERATE(0.3F, 0.7F);
     const Planted planted = plant(kBush, 6, rho, heroes(4));
     const InstanceCache& cache = planted.cache;
-    const TreeBounds bounds = tree_bounds(cache, own_reach(cache));
+    const TreeBounds bounds = tree_bounds(cache, surface_reaches(cache));
     const PartSkeletons skeletons(cache);
     // The largest ratio of the distance between a tree and its plant with stand-ins to the bound of
     // this distance.

@@ -170,10 +170,10 @@ std::vector<Line> read_word(const std::string& word, const Profile& profile, con
     std::vector<Turtle> saved;
     for (std::size_t i = 0; i < word.size(); ++i) {
         const char name = word[i];
-        bool given = false;
+        bool has_value = false;
         Real value = 0.0L;
         if (i + 1 < word.size() && word[i + 1] == '(') {
-            given = true;
+            has_value = true;
             value = static_cast<Real>(std::strtof(word.c_str() + i + 2, nullptr));
             i = word.find(')', i);
         }
@@ -187,20 +187,20 @@ std::vector<Line> read_word(const std::string& word, const Profile& profile, con
         if (known == profile.end()) {
             continue;
         }
-        const Real turn = given ? value : turtle.angle;
+        const Real turn = has_value ? value : turtle.angle;
         switch (known->second) {
         case 'F': {
             bend(turtle, bends);
             Line line;
             line.from = turtle.at;
             line.width = turtle.width;
-            walk(turtle, given ? value : turtle.step);
+            walk(turtle, has_value ? value : turtle.step);
             line.to = turtle.at;
             lines.push_back(line);
             break;
         }
         case 'f':
-            walk(turtle, given ? value : turtle.step);
+            walk(turtle, has_value ? value : turtle.step);
             break;
         case 'r':
             rotate(turtle.heading, turtle.right, turn);
@@ -233,19 +233,19 @@ std::vector<Line> read_word(const std::string& word, const Profile& profile, con
             break;
         }
         case '!':
-            turtle.width = given ? value : turtle.width * 0.7L;
+            turtle.width = has_value ? value : turtle.width * 0.7L;
             break;
         case 'n':
-            turtle.width = given ? value : turtle.width;
+            turtle.width = has_value ? value : turtle.width;
             break;
         case '*':
-            turtle.width *= given ? value : 0.7L;
+            turtle.width *= has_value ? value : 0.7L;
             break;
         case '"':
-            turtle.step *= given ? value : 0.9L;
+            turtle.step *= has_value ? value : 0.9L;
             break;
         case ';':
-            turtle.angle *= given ? value : 0.9L;
+            turtle.angle *= has_value ? value : 0.9L;
             break;
         default:
             FAIL("a profile of the test is wrong");

@@ -75,11 +75,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 // The first place where two texts differ, with the text around it.
 std::string first_difference(const std::string& expected, const std::string& found) {
-    const std::vector<std::string> wanted = lines_of(expected);
-    const std::vector<std::string> given = lines_of(found);
-    for (std::size_t line = 0; line < std::max(wanted.size(), given.size()); ++line) {
-        const std::string a = line < wanted.size() ? wanted[line] : "(no such line)";
-        const std::string b = line < given.size() ? given[line] : "(no such line)";
+    const std::vector<std::string> expected_lines = lines_of(expected);
+    const std::vector<std::string> found_lines = lines_of(found);
+    for (std::size_t line = 0; line < std::max(expected_lines.size(), found_lines.size()); ++line) {
+        const std::string a =
+            line < expected_lines.size() ? expected_lines[line] : "(no such line)";
+        const std::string b = line < found_lines.size() ? found_lines[line] : "(no such line)";
         if (a == b) {
             continue;
         }

@@ -15,18 +15,18 @@ namespace {
 Word without_cuts(const System& system, const Word& word) {
     Word out;
     std::size_t open = 0; // brackets open in the removed part
-    bool cut = false;
+    bool is_cut = false;
     for (const Module& module : word) {
         const bool bare = module.values.empty();
-        if (cut && bare && module.name == "[") {
+        if (is_cut && bare && module.name == "[") {
             ++open;
-        } else if (cut && bare && module.name == "]") {
-            cut = open > 0;
+        } else if (is_cut && bare && module.name == "]") {
+            is_cut = open > 0;
             open -= open > 0 ? 1 : 0;
         } else if (system.cuts && bare && module.name == "%") {
-            cut = true;
+            is_cut = true;
         }
-        if (!cut) {
+        if (!is_cut) {
             out.push_back(module);
         }
     }

@@ -23,7 +23,7 @@ Place place_at(double x, double y, double z) {
     return place;
 }
 
-// From -1 to 1, its faces seen from outside anticlockwise.
+// A cube from -1 to 1 in all axes; its faces are anticlockwise seen from outside.
 Surface cube() {
     Surface surface;
     for (std::size_t axis = 0; axis < 3; ++axis) {

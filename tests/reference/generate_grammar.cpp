@@ -420,10 +420,10 @@ private:
             for (int bundles = is_wanted ? random_.between(1, 3) : 0; bundles > 0; --bundles) {
                 for (const Production& production :
                      productions_.sweep_bundle(stage, file.letters)) {
-                    Statement& one = file.statements.emplace_back();
-                    one.kind = StatementKind::Production;
-                    one.production = production;
-                    one.production.label = new_label();
+                    Statement& statement = file.statements.emplace_back();
+                    statement.kind = StatementKind::Production;
+                    statement.production = production;
+                    statement.production.label = new_label();
                 }
             }
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plans a random grammar: its modules, its features and their frequencies.
+// Plans a random grammar: its modules, its features and their frequencies. generate_productions.h
+// explains bundles.
 
 #pragma once
 
@@ -19,11 +20,11 @@ struct Species {
 
 struct Plan {
     std::string rewriting;
-    bool choice_generation = false; // `#set choice generation`
-    bool weights_any = false;       // `#set weights any`
-    bool brackets = false;
-    bool unbalanced = false; // some successors do not balance their brackets
-    bool polygons = false;
+    bool choice_generation = false;     // `#set choice generation`
+    bool weights_any = false;           // `#set weights any`
+    bool brackets = false;              // words have branches
+    bool unbalanced = false;            // some successors do not balance their brackets
+    bool polygons = false;              // words have polygons
     bool open_polygons = false;         // some successors do not balance their polygons
     std::size_t context_percent = 0;    // percentage of bundles with contexts
     std::size_t condition_percent = 0;  // percentage of bundles with conditions

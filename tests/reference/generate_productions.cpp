@@ -408,7 +408,7 @@ std::vector<Production> ProductionMaker::bundle_of(const Production& shape, bool
     const bool conditional = random_.percent(plan_.condition_percent);
     const std::vector<float> parts = shares(count);
     std::vector<Production> bundle;
-    bool some_condition = false;
+    bool has_condition = false;
     for (int i = 0; i < count; ++i) {
         Production production = shape;
         std::vector<std::string> formals;
@@ -421,10 +421,10 @@ std::vector<Production> ProductionMaker::bundle_of(const Production& shape, bool
         }
         Scope scope{formals, true, 0, true};
         // Without probabilities, only the last production may lack a condition.
-        const bool last = i + 1 == count;
-        if ((conditional && random_.percent(75)) || (!stochastic && !last)) {
+        const bool is_last = i + 1 == count;
+        if ((conditional && random_.percent(75)) || (!stochastic && !is_last)) {
             production.condition = expressions_.condition(scope);
-            some_condition = true;
+            has_condition = true;
         }
         if (stochastic) {
             production.probability = plan_.weights_any && random_.percent(50)
@@ -443,7 +443,7 @@ std::vector<Production> ProductionMaker::bundle_of(const Production& shape, bool
         production.successor = successor(production, scope, letters);
         bundle.push_back(production);
     }
-    if (some_condition && stochastic && random_.percent(25)) {
+    if (has_condition && stochastic && random_.percent(25)) {
         // Other probabilities are legal here, and one production may have none.
         for (Production& production : bundle) {
             production.probability = number(random_.percent(50) ? 0.5F : 0.125F);

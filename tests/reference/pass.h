@@ -17,7 +17,7 @@ constexpr std::uint64_t kDrawsOfARule = 4096;
 struct PassInput {
     const System& system;
     const Word& word;
-    std::uint32_t age = 0;
+    std::uint32_t age = 0; // of `word`
     // Number of the first draw. Sequential rewriting: 4096 times the index of the rule; #decompose:
     // 2^32 + 4096 times the index of the pass, #interpret: 2^31 more; sweeps: kFirstDownDraw,
     // kFirstUpDraw.

@@ -50,7 +50,7 @@ public:
 private:
     std::uint64_t seed_;
     std::uint32_t stream_;
-    std::uint32_t count_ = 0;
+    std::uint32_t count_ = 0; // of words drawn so far
 };
 
 } // namespace lsys::reference

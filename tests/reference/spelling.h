@@ -61,8 +61,11 @@ private:
     // Number of ways to split `text` into two or more names of the grammar.
     [[nodiscard]] std::size_t ways(const std::string& text) const;
     [[nodiscard]] bool is_safe(const std::string& text); // whether it may become a joined name
-    // Joins random neighbours in a list. `late`: from its end on.
+    // Joins random neighbours in a list. `late`: begins at the end of the list. `used`: names that
+    // stand alone in the file, with their numbers of parameters.
     void join(const List& list, std::set<std::string>& used, bool late, Random& random);
+    // Joins the words `first` to `last` of a list to one name, if this is safe; returns whether it
+    // did.
     bool
     join_at(const List& list, std::size_t first, std::size_t last, std::set<std::string>& used);
 

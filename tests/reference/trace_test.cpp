@@ -27,6 +27,7 @@ lsys::Word copy_of(const lsys::Word& word) {
     return copy;
 }
 
+/// Counts of the results in all traces.
 struct Seen {
     std::array<std::uint64_t, kCountOf<Fate>> fates{};
     std::array<std::uint64_t, kCountOf<Verdict>> verdicts{};

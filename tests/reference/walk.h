@@ -21,8 +21,8 @@ struct Walk {
     std::vector<Organ> organs;
 };
 
-// Walks over `drawn`, what interpretation makes of `word`. Throws Stop for a `]` or `}` without its
-// opening.
+// Walks over `drawn`, the word that interpretation draws in place of `word`. Throws Stop for a `]`
+// without its `[`, and for a `}` without its `{`.
 Walk walk(const System& system, const Word& word, const Word& drawn, std::uint32_t age);
 
 } // namespace lsys::reference

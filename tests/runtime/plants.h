@@ -135,10 +135,10 @@ inline Skeleton tree(std::uint32_t depth, std::uint32_t segments_per_axis) {
 
 /// The frame of a segment relative to the frame of its parent; without a parent, the frame itself.
 inline glm::quat local_frame(const Skeleton& skeleton, std::uint32_t segment) {
-    const Segment& own = skeleton.segments[segment];
-    return own.parent == kNoSegment
-               ? own.frame
-               : glm::conjugate(skeleton.segments[own.parent].frame) * own.frame;
+    const Segment& child = skeleton.segments[segment];
+    return child.parent == kNoSegment
+               ? child.frame
+               : glm::conjugate(skeleton.segments[child.parent].frame) * child.frame;
 }
 
 /// Energy in J of springs and weight, computed only from the pose at rest and a bent pose.

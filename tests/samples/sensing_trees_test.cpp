@@ -177,13 +177,13 @@ TEST_CASE("sections are kept at every fork of a pine") {
     }
     std::size_t forks = 0;
     for (std::size_t i = 0; i < children.size(); ++i) {
-        const double own = std::pow(base_width(skeleton.segments[i]), exponent);
+        const double section = std::pow(base_width(skeleton.segments[i]), exponent);
         if (children[i] == 0) {
-            CHECK(own == Approx(std::pow(0.007, exponent)).epsilon(1e-5));
+            CHECK(section == Approx(std::pow(0.007, exponent)).epsilon(1e-5));
             continue;
         }
         forks += children[i] > 1 ? 1U : 0U;
-        CHECK(own == Approx(of_children[i]).epsilon(1e-5));
+        CHECK(section == Approx(of_children[i]).epsilon(1e-5));
     }
     CHECK(forks > 500);
     CHECK(base_width(skeleton.segments[0]) > 0.1); // m: the trunk has thickened
@@ -199,7 +199,7 @@ TEST_CASE("a pine drops its low boughs") {
         }
     }
     CHECK(lowest > 0.25 * height);
-    const Skeleton kept =
+    const Skeleton with_boughs =
         test::sample_plant("pipe-model-pine", {{.name = "shed", .value = 0.0F}}).skeleton;
-    CHECK(kept.segments.size() > skeleton.segments.size());
+    CHECK(with_boughs.segments.size() > skeleton.segments.size());
 }

@@ -192,7 +192,7 @@ TEST_CASE("no segment of the topiary is outside its frame by more than one segme
 
 TEST_CASE("a tip of competing-tips forks exactly if no other is within its radius") {
     const std::string file = file_of("competing-tips");
-    // As the environment has it, rounded to binary32.
+    // The radius of the environment, rounded to binary32.
     const auto radius = static_cast<double>(0.22F);
     std::size_t expected = 0;
     for (const char* const n : {"6", "7", "8", "9", "10"}) {

@@ -162,7 +162,7 @@ private:
     }
 
     Bytecode bytecode_;
-    bool fold_;
+    bool fold_; // codes include constant arguments
     std::map<std::pair<std::string, std::size_t>, std::size_t> symbols_;
     std::map<std::vector<std::uint32_t>, Code> folded_;
 };

@@ -56,7 +56,7 @@ private:
     std::vector<std::string> ignored_;
     std::vector<std::string> sensing_;
     std::vector<GlobalText> globals_;
-    std::uint32_t unused_ = 0;
+    std::uint32_t unused_ = 0; // of unused_symbols()
 };
 
 } // namespace lsys::test

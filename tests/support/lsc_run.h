@@ -49,7 +49,7 @@ struct Sample {
     std::vector<std::vector<std::string>> runs; // by `run:` line; with the path of the file
     std::string counts;                         // one count per line, as --all --count prints them
     std::size_t counts_size = 0;                // number of counts
-    bool declares_warnings = false;
+    bool declares_warnings = false; // warnings are expected: a grammar as its source printed it
 };
 [[nodiscard]] std::vector<Sample> all_samples();
 

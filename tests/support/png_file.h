@@ -10,8 +10,8 @@
 namespace lsys::test {
 
 struct PngFormat {
-    int depth = 8;
-    int colours = PNG_COLOR_TYPE_GRAY;
+    int depth = 8;                     // bits of a sample
+    int colours = PNG_COLOR_TYPE_GRAY; // a PNG_COLOR_TYPE_
     bool interlaced = false;
 };
 

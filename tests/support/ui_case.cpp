@@ -247,8 +247,8 @@ bool matches(const UiAnnotation& annotation,
         (!annotation.code.empty() && annotation.code != diagnostic.code)) {
         return false;
     }
-    const bool here = diagnostic.file == name || diagnostic.file == "<stdin>";
-    return annotation.line == 0 || (here && annotation.line == diagnostic.line);
+    const bool is_of_case = diagnostic.file == name || diagnostic.file == "<stdin>";
+    return annotation.line == 0 || (is_of_case && annotation.line == diagnostic.line);
 }
 
 } // namespace lsys::tests

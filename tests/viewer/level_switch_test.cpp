@@ -21,8 +21,8 @@ using namespace lsys::view;
 
 namespace {
 
-constexpr float kStep = 0.002F; // fraction of the distance of the camera
-constexpr double kMaxFactor = 1.5;
+constexpr float kStep = 0.002F;    // fraction of the distance of the camera
+constexpr double kMaxFactor = 1.5; // max change of the picture divided by its usual change
 
 /// A single tree in the middle of the picture.
 struct LoneTree {

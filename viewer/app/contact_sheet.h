@@ -43,7 +43,7 @@ void take_cell(const SheetCell& cell, PlantEdits& edits);
 /// Pictures that the other thread has drawn and take() has not returned yet.
 struct SheetPictures {
     std::mutex mutex;
-    std::vector<std::pair<std::size_t, Texture>> drawn; // cell and picture; no texels: no plant
+    std::vector<std::pair<std::size_t, Texture>> drawn; // cell, picture; no texels: failed
 };
 
 /// The input of the thread that draws the pictures.
@@ -89,8 +89,9 @@ public:
     /// effect at the next show().
     std::vector<std::string> varied;
     std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
-    std::array<std::uintptr_t, kSheetCells> images{}; // for ImGui::Image(); 0: no picture
-    std::array<bool, kSheetCells> done{};             // true without an image: no plant
+    std::array<std::uintptr_t, kSheetCells> images{}; // for ImGui::Image(); 0: none yet
+    /// Whether a cell has been handled; true without an image: its plant could not be made.
+    std::array<bool, kSheetCells> done{};
     /// Whether all pictures taken so far are equal.
     [[nodiscard]] bool are_alike() const { return are_alike_; }
 

@@ -23,12 +23,12 @@ enum class OpenDialog : std::uint8_t { None, File, Picture, Export, Sheet, Unsav
 
 /// State of overlays and dialogs, and modes of the window.
 struct PanelState {
-    bool panels = true;         // shown
-    bool statistics = false;    // shown
+    bool panels = true;         // the panels are shown
+    bool statistics = false;    // the statistics are shown
     bool help = false;          // the list of keys is shown
     bool flies = false;         // fly mode: the mouse looks around, WASD move
     bool wants_to_quit = false; // the user has pressed Ctrl+Q
-    bool quits = false;         // quit: unsaved changes are saved or discarded
+    bool quits = false;         // close the window now: no unsaved changes are left
     FocusMove focus_move = FocusMove::None;
     PanelFocus focus;
     /// Text of View::all_messages() when the user closed the messages; other messages are shown.
@@ -190,6 +190,8 @@ private:
     /// Passes input to the open dialog or to the start page. Returns whether one of them is shown.
     [[nodiscard]] static bool
     use_pages(const WindowInput& input, ViewSwitcher& switcher, PanelState& panels);
+    /// press_in_page() handles a key in the start page or in a dialog, press_in_browser() in the
+    /// dialog that opens a file. If the key chooses a file to open, they set `chosen` to its path.
     static void press_in_page(const KeyPress& press,
                               ViewSwitcher& switcher,
                               PanelState& panels,

@@ -16,6 +16,7 @@ namespace lsys::view {
 
 namespace {
 
+/// Form of the arguments that open a file at a line and column.
 enum class PlaceForm : std::uint8_t {
     PlusLine, // +LINE FILE
     Goto,     // --goto FILE:LINE:COLUMN

@@ -46,7 +46,7 @@ public:
 private:
     struct Running {
         platform::Child child;
-        std::string name;
+        std::string name; // name of the editor's program
     };
     std::vector<Running> running_;
 };

@@ -76,10 +76,10 @@ private:
     std::string folder_;
     std::string text_;
     std::string mistake_;
-    std::string read_folder_; // the folder of all_
-    std::vector<FolderEntry> all_;
-    std::vector<FolderEntry> entries_; // those that are shown
-    std::size_t selected_ = 0;
+    std::string read_folder_;          // the folder of all_
+    std::vector<FolderEntry> all_;     // all entries of read_folder_
+    std::vector<FolderEntry> entries_; // the entries of all_ that match text_
+    std::size_t selected_ = 0;         // index in entries_
     bool wants_scroll_ = false;
 };
 

@@ -28,9 +28,9 @@ constexpr std::chrono::milliseconds kPollWithoutEvents{100};
 std::vector<fs::path> names_of(const std::string& path) {
     std::error_code error;
     std::vector<fs::path> names;
-    const fs::path own = fs::absolute(path, error).lexically_normal();
+    const fs::path absolute = fs::absolute(path, error).lexically_normal();
     if (!error) {
-        names.push_back(own);
+        names.push_back(absolute);
     }
     const fs::path real = fs::canonical(path, error);
     if (!error && (names.empty() || real != names.front())) {

@@ -24,7 +24,7 @@ struct PictureSettings {
     std::uint32_t width = 0; // pixels; width or height 0: size of the window's picture
     std::uint32_t height = 0;
     std::uint32_t samples = 4; // per pixel
-    bool transparent = false;  // has no effect on forests
+    bool transparent = false;  // no sky, no ground; plants only
     std::string folder;        // empty: the current folder
     std::string name;          // without extension
     bool is_film = false;

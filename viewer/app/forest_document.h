@@ -32,8 +32,8 @@ struct ForestDocument {
     /// Time of the year of the first species that follows SceneSpecies::season; nullopt: no species
     /// follows it. Set only in a window.
     std::optional<float> season;
-    double parse_seconds = 0.0;
-    double mesh_seconds = 0.0;
+    double parse_seconds = 0.0; // time to read and parse the scene and its grammars
+    double mesh_seconds = 0.0;  // time to make the meshes of `model`
 };
 
 /// Reads the files of a scene, derives its heroes, places its trees and makes the meshes.

@@ -15,7 +15,7 @@ namespace {
 /// The growth that is being computed. Used by the growth thread only.
 struct FilmState {
     std::shared_ptr<const ForestDocument> document; // the document from which `growth` was begun
-    Scene scene;
+    Scene scene;                                    // scene of `document`, without painting
     std::optional<ForestGrowth> growth;
 
     [[nodiscard]] Outcome<void>

@@ -369,14 +369,14 @@ void draw_colours(ForestView& view) {
     draw_legend(view);
 }
 
-/// `own`: season of the scene; nullopt: no species follows the season.
-void draw_season(const std::optional<float>& own, std::optional<float>& edit) {
-    ImGui::BeginDisabled(!own);
-    draw_edit("Season", own.value_or(0.0F), edit, [&own](float& value) {
+/// `scene`: season of the scene; nullopt: no species follows the season.
+void draw_season(const std::optional<float>& scene, std::optional<float>& edit) {
+    ImGui::BeginDisabled(!scene);
+    draw_edit("Season", scene.value_or(0.0F), edit, [&scene](float& value) {
         const bool changed =
             ImGui::SliderFloat("##value", &value, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-        draw_tooltip(own ? "Time of the year, from March to March; Ctrl+S writes it to the scene"
-                         : "No species here has a constant `season` that the scene leaves open");
+        draw_tooltip(scene ? "Time of the year, from March to March; Ctrl+S writes it to the scene"
+                           : "No species here has a constant `season` that the scene leaves open");
         return changed;
     });
     ImGui::EndDisabled();

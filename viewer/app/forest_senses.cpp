@@ -95,13 +95,13 @@ SenseDrawing make_forest_sense_drawing(const ForestDocument& document,
                                        const SenseLook& look,
                                        const SpeciesMoves& moves) {
     SenseDrawing drawing;
-    SenseLook own = look;
-    own.obstacles = false;
-    if (!trees.empty() && own != SenseLook{false, false, false, false}) {
+    SenseLook nearest_look = look;
+    nearest_look.obstacles = false;
+    if (!trees.empty() && nearest_look != SenseLook{false, false, false, false}) {
         const Tree& tree = trees.front();
         if (const SensedPlant* const plant = plant_of(document, tree)) {
-            append(make_sense_drawing(*plant, own, {}, stage_of(document, tree)->bounds), tree,
-                   drawing);
+            append(make_sense_drawing(*plant, nearest_look, {}, stage_of(document, tree)->bounds),
+                   tree, drawing);
         }
     }
     const SenseLook obstacles{look.obstacles, false, false, false};
@@ -136,10 +136,10 @@ std::optional<ForestObstacleHit> first_forest_obstacle(const ForestDocument& doc
         const BranchInstance pose = root_of(tree);
         const glm::dquat back = glm::conjugate(glm::dquat(pose.rotation));
         const double scale = static_cast<double>(pose.scale);
-        const Ray own{back * (ray.origin - glm::dvec3(pose.position)) / scale,
-                      back * ray.direction / scale};
+        const Ray hero_ray{back * (ray.origin - glm::dvec3(pose.position)) / scale,
+                           back * ray.direction / scale};
         std::optional<ObstacleHit> hit =
-            first_obstacle(stage.heroes.front(), moves_of(moves, tree), stage.bounds, own);
+            first_obstacle(stage.heroes.front(), moves_of(moves, tree), stage.bounds, hero_ray);
         if (hit && (!first || hit->distance < first->obstacle.distance)) {
             first = ForestObstacleHit{std::move(*hit), tree};
         }

@@ -30,12 +30,12 @@ public:
 
     /// Adds a tree, unless it senses nothing.
     void add(const Tree& tree);
-    /// Up to kMaxObstacleTrees trees, nearest first; equally near ones by their numbers.
+    /// Up to kMaxObstacleTrees trees, nearest first; trees at the same distance by their numbers.
     [[nodiscard]] std::vector<Tree> take();
 
 private:
     struct Found {
-        double square = 0.0; // m2, of the distance
+        double square = 0.0; // m2, square of the distance from place_
         Tree tree;
     };
     static bool is_nearer(const Found& a, const Found& b);
@@ -48,8 +48,8 @@ private:
 /// Displacements of environments by species.
 using SpeciesMoves = std::vector<std::vector<EnvironmentMove>>;
 
-/// Draws what `trees` sense, the result of NearestSensing. `moves`: since the forest has grown, by
-/// species; empty: none.
+/// Draws what `trees` sense, the result of NearestSensing. `moves`: displacements
+/// of environments since the forest has grown; empty: none.
 [[nodiscard]] SenseDrawing make_forest_sense_drawing(const ForestDocument& document,
                                                      const std::vector<Tree>& trees,
                                                      const SenseLook& look,

@@ -137,11 +137,11 @@ void ForestStreamer::show_squares(const WantedSquares& wanted,
         if (found == ready_.end() || found->second.is_shown) {
             continue;
         }
-        const std::uint64_t more = found->second.square->trees.size();
-        if (trees != 0 && trees + more > max_trees) {
+        const std::uint64_t square_trees = found->second.square->trees.size();
+        if (trees != 0 && trees + square_trees > max_trees) {
             break;
         }
-        trees += more;
+        trees += square_trees;
         found->second.is_shown = true;
         changes.added.push_back(found->second.square);
         ++stats_.shown;

@@ -173,15 +173,16 @@ private:
         std::string name;            // of its environment
         Tree tree;                   // the tree whose obstacle it is
         std::array<float, 3> move{}; // SpeciesOverrides::moves when it was grabbed, m
-        double depth = 0.0;          // distance of the grabbed point, in lengths of a direction
+        double depth = 0.0;          // m along the view, from the eye to the grabbed point
         glm::dvec3 place{};          // m, the grabbed point relative to the eye
     };
     /// The state of the drawing of senses.
     struct ShownSenses {
         SenseLook look;
         SpeciesMoves moves;
-        std::array<std::uint64_t, 4> content{}; // counts that change with the trees
-        glm::dvec3 place{};                     // target of the camera
+        /// Counts of swaps, moments, trees and steps: equal counts mean that no tree has changed.
+        std::array<std::uint64_t, 4> content{};
+        glm::dvec3 place{}; // target of the camera
 
         friend bool operator==(const ShownSenses&, const ShownSenses&) = default;
     };
@@ -191,7 +192,7 @@ private:
     void add_step(StepKind kind); // a new step of undo()
     /// Undoes or repeats a step: moves the last step of `from` to `to`.
     bool move_step(std::vector<StepKind>& from, std::vector<StepKind>& to, bool redoes);
-    void take_outcome(ForestOutcome outcome); // unless it is of another scene
+    void take_outcome(ForestOutcome outcome); // drops an outcome of another scene
     void swap(ForestOutcome outcome);         // shows the new forest in place of the old one
     void show_outline();                      // of the tool, at pointed_
     void show_senses();
@@ -236,7 +237,7 @@ private:
     std::vector<StepKind> steps_;         // oldest first
     std::vector<StepKind> undone_;        // the step that was undone first comes first
     std::uint32_t default_years_ = 0;     // default_years()
-    std::uint32_t unedited_years_ = 0;    // default number of years of the forest
+    std::uint32_t unedited_years_ = 0;    // years() while the user has not set the years
     bool is_other_placement_ = false;     // the placement differs from that of the scene file
     SteadyClock::time_point changed_at_;  // time of the change that led to the forest shown
     SteadyClock::time_point last_growth_; // time of the last step of growth

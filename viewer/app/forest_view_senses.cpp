@@ -19,13 +19,13 @@ SpeciesMoves ForestView::new_moves() const {
             return found == edits.species.end() ? std::vector<EnvironmentMove>{}
                                                 : found->second.moves;
         };
-        std::vector<EnvironmentMove>& own = moves.emplace_back(moves_in(settings.edits));
+        std::vector<EnvironmentMove>& species_moves = moves.emplace_back(moves_in(settings.edits));
         for (const EnvironmentMove& old : moves_in(shown_edits_)) {
-            std::array<float, 3> by = move_of(own, old.name);
+            std::array<float, 3> by = move_of(species_moves, old.name);
             for (std::size_t axis = 0; axis < by.size(); ++axis) {
                 by[axis] -= old.by[axis];
             }
-            set_move(old.name, by, own);
+            set_move(old.name, by, species_moves);
         }
     }
     return moves;

@@ -144,8 +144,8 @@ private:
 
     Run run_request_;
     std::function<void()> done_;
-    mutable std::mutex mutex_; // guards the members from here to `began_`
-    std::condition_variable changed_;
+    mutable std::mutex mutex_;        // guards the members from here to `began_`
+    std::condition_variable changed_; // pending_ or stop_requested_ has changed
     std::optional<Request> pending_;
     std::optional<Request> last_;     // the request that repeat() repeats
     std::optional<Request> finished_; // the last request that was not cancelled

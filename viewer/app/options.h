@@ -47,7 +47,8 @@ struct ViewOptions {
     std::vector<std::string> files;    // a grammar, a scene, or the grammars of a forest
     std::string file;                  // front of `files`
     bool is_forest = false;            // a scene, several grammars, or an option of forests
-    // For forests only. Its members `grammar` and `seed` are unset; the members above have them.
+    // For forests only. overrides.grammar and overrides.seed are unset: `grammar` and `seed` above
+    // have their values.
     SceneOverrides overrides;
     SceneOverrides edits; // edits of the user in the window, applied after `overrides`
     MeshOptions mesh;

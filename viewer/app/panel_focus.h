@@ -16,7 +16,8 @@ inline constexpr const char* kSourceLines = "Source lines";
 /// Where the user wants the keyboard: in the next panel, or in the picture.
 enum class FocusMove : std::uint8_t { None, Next, Picture };
 
-/// The kind of the open dialog. Controls handles the keys of its own dialogs, which have no ring.
+/// Who handles the keys of the open dialog: the panels (ImGui), or Controls, whose dialogs have no
+/// ring.
 enum class DialogKeys : std::uint8_t { NoDialog, OfPanels, OfControls };
 
 class PanelFocus {
@@ -32,7 +33,7 @@ public:
 
 private:
     DialogKeys dialog_ = DialogKeys::NoDialog;
-    std::string before_; // had the keyboard before the dialog; empty: the picture
+    std::string before_; // window that had the keyboard before the dialog; empty: the picture
     bool has_keys_ = false;
 };
 

@@ -42,7 +42,7 @@ Area picture_area(const PanelState& panels, float scale) {
     return {{left, 0.0F}, {size.x - source_width(panels, size.x, scale), size.y}};
 }
 
-constexpr int kNameWidth = 12; // characters
+constexpr int kNameWidth = 12; // width in characters of the names of statistics
 
 void time_row(const char* name, double seconds) {
     line(fmt::format("{:<{}}{:>9.1f} ms", name, kNameWidth, kMillisecondsPerSecond * seconds));

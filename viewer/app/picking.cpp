@@ -63,11 +63,11 @@ std::optional<BranchCount> count_branch(const InstanceCache& cache,
         }
         Tree tree;
         tree.number = number;
-        std::uint64_t here = 0;
+        std::uint64_t copies = 0;
         expander.expand_instances(tree,
-                                  [&](std::uint32_t each) { here += each == instance ? 1 : 0; });
-        count.branches += here;
-        count.trees += here != 0 ? 1 : 0;
+                                  [&](std::uint32_t each) { copies += each == instance ? 1 : 0; });
+        count.branches += copies;
+        count.trees += copies != 0 ? 1 : 0;
     }
     return count;
 }

@@ -24,9 +24,9 @@ namespace lsys::view {
 
 /// A triangle of a plant in the state in which the plant is shown.
 struct PickedTriangle {
-    std::uint64_t triangle = 0; // number; corners: Mesh::indices from 3 * triangle on
-    glm::vec3 place{};          // m
-    const Skeleton* pose = nullptr;
+    std::uint64_t triangle = 0;         // number; corners: Mesh::indices from 3 * triangle on
+    glm::vec3 place{};                  // m
+    const Skeleton* pose = nullptr;     // the skeleton as shown; never null in describe()
     MeshOptions mesh;                   // options with which the pose was meshed
     std::optional<GrowthMoment> moment; // moment of a growing plant; empty: all generations
 };

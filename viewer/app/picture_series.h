@@ -25,7 +25,7 @@ struct PictureSeries {
     std::vector<double> gpu;     // by timer queries
     std::vector<double> write;   // writing the picture to a file
     FrameStats drawn;            // statistics of the last picture
-    std::uint64_t digest = 0;    // equal for runs with the same pictures
+    std::uint64_t digest = 0;    // hash of all pictures
 };
 
 /// The median of `values`; 0 if there are none.

@@ -18,7 +18,7 @@ struct PlantDocument {
     Mesh mesh;                 // at rest
     double height = 0.0;       // m, height of the skeleton at rest
     double load_seconds = 0.0; // time to read and compile the grammar
-    double mesh_seconds = 0.0;
+    double mesh_seconds = 0.0; // time to make the mesh
 };
 
 /// Reads and compiles a grammar, derives the word, draws the skeleton and makes the mesh.

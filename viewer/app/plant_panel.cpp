@@ -287,8 +287,8 @@ void draw_senses(PlantView& view) {
     }
 }
 
-/// `own_droop`: droop of the plant's leaves if the user does not set it.
-void draw_mesh(PlantViewSettings& settings, float own_droop) {
+/// `default_droop`: droop of the plant's leaves if the user does not set it.
+void draw_mesh(PlantViewSettings& settings, float default_droop) {
     if (!ImGui::CollapsingHeader("Mesh")) {
         return;
     }
@@ -321,7 +321,7 @@ void draw_mesh(PlantViewSettings& settings, float own_droop) {
             mesh.subdivisions = subdivisions;
         }
     }
-    float droop = mesh.droop.value_or(own_droop);
+    float droop = mesh.droop.value_or(default_droop);
     if (ImGui::SliderFloat("Droop", &droop, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
         mesh.droop = droop;
     }

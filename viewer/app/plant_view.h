@@ -168,7 +168,7 @@ private:
         glm::dvec3 place{};          // the grabbed point, relative to the eye, m
     };
 
-    void take_outcome(LoadOutcome outcome); // unless it is of another file
+    void take_outcome(LoadOutcome outcome); // drops an outcome of another file
     void swap(LoadOutcome outcome);         // shows the new plant in place of the old one
     void show_lines();
     void show_senses();
@@ -178,7 +178,7 @@ private:
     void start_growth();      // from the generation shown
     void grow();              // requests the next moment of growth
     void take_moment();       // shows the moment that film_ has made
-    void widen_film_ground(); // never narrower than before
+    void widen_film_ground(); // widens film_ground_ for the moment shown; never narrows it
     /// Starts, changes or stops the simulation, and shows its latest moment.
     void bend();
     /// Adds a warning if the simulated plant falls under its weight. Returns whether messages

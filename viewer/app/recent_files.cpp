@@ -44,8 +44,8 @@ std::vector<std::string> listed_files(const std::string& folder) {
 
 std::string state_folder() {
     struct Place {
-        const char* variable;
-        const char* below;
+        const char* variable; // environment variable with a folder
+        const char* below;    // path of the state folder below that folder
     };
     for (const Place& place : {Place{"XDG_STATE_HOME", "/lsview"},
 #ifdef _WIN32

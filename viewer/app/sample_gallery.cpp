@@ -91,11 +91,11 @@ std::string samples_folder() {
         }
     }
     const char* const variable = std::getenv("XDG_DATA_DIRS");
-    const std::string_view data =
+    const std::string_view data_folders =
         variable == nullptr || *variable == '\0' ? "/usr/local/share:/usr/share" : variable;
-    for (std::size_t begin = 0; begin < data.size();) {
-        const std::size_t end = std::min(data.find(':', begin), data.size());
-        folders.push_back(path_of(data.substr(begin, end - begin)) / "lsc/samples");
+    for (std::size_t begin = 0; begin < data_folders.size();) {
+        const std::size_t end = std::min(data_folders.find(':', begin), data_folders.size());
+        folders.push_back(path_of(data_folders.substr(begin, end - begin)) / "lsc/samples");
         begin = end + 1;
     }
     const auto found = std::find_if(folders.begin(), folders.end(), holds_samples);

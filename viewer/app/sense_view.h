@@ -19,7 +19,7 @@ namespace lsys::view {
 /// The senses that a picture shows.
 struct SenseLook {
     bool obstacles = true;   // meshes and planes of kind Solid
-    bool light = false;      // kind Shadow: voxels by exposure; kind Sky: places by light
+    bool light = false;      // kinds Shadow and Sky: voxels or places, coloured by their light
     bool markers = false;    // kind Space: markers that are not removed yet
     bool directions = false; // arrow in the direction with which each module was answered
 

@@ -10,9 +10,10 @@
 
 namespace lsys::view {
 
-/// Toggles. `has_keys`: the view has keys for them, which tooltips name.
+/// Draws a toggle for each sense. `has_keys`: the view has keys for the toggles, and tooltips name
+/// the keys.
 void draw_sense_look(bool has_keys, SenseLook& look);
-/// Fields for the displacement of an environment, if its kind has a place.
+/// Draws fields for the displacement of an environment; nothing if its kind has no place.
 void draw_environment_move(const std::string& name,
                            EnvironmentKind kind,
                            std::vector<EnvironmentMove>& moves);

@@ -49,7 +49,7 @@ struct SourceMessage {
 
 struct ShownSource {
     std::string path;
-    const SourceFile* file = nullptr; // of SourceText::sources
+    const SourceFile* file = nullptr; // in SourceText::sources; not null
     std::vector<SourceToken> tokens;
     std::vector<SourceSpan> statements;  // ascending
     std::vector<SourceMessage> messages; // sorted by line

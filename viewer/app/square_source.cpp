@@ -68,9 +68,9 @@ std::vector<Tree> SquareSource::trees_of(const Region& region) const {
         };
         std::erase_if(trees, is_outside(options_.region));
         static_cast<void>(sizer_.size(trees));
-        const std::vector<Tree> all = trees;
+        const std::vector<Tree> surrounding_trees = trees;
         std::erase_if(trees, is_outside(region));
-        sense_surroundings(kinds_, all, trees, 1);
+        sense_surroundings(kinds_, surrounding_trees, trees, 1);
     } else {
         static_cast<void>(sizer_.size(trees));
     }

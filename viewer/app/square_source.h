@@ -41,7 +41,7 @@ public:
     /// Upper estimate of the number of trees of a region. Where the density varies, it is sampled
     /// at 16 points.
     [[nodiscard]] double expected_trees(const Region& region) const;
-    /// Expected number of places on the whole ground.
+    /// Expected number of places on the whole ground; a place has at most one tree.
     [[nodiscard]] double all_places() const { return all_places_; }
     /// Layout of the squares, sizes of trees, and cover, for a model whose forms are made. The
     /// source must outlive the result.

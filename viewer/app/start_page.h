@@ -25,10 +25,10 @@ struct StartPage {
     std::vector<GallerySample> samples;
     std::vector<std::uintptr_t> images; // pictures of the first samples, as far as uploaded
     bool in_recent = false;             // the selection is among the recent files
-    std::size_t selected = 0;
-    std::size_t columns = 1;   // columns of the gallery
-    bool wants_scroll = false; // the page must scroll to the selection
-    std::string letters;       // letters typed since the last move of the selection
+    std::size_t selected = 0;           // index in `recent` or `samples`
+    std::size_t columns = 1;            // columns of the gallery
+    bool wants_scroll = false;          // the page must scroll to the selection
+    std::string letters;                // letters typed since the last move of the selection
 
     /// Reads the list of recent files in the folder `state`, and the samples in `folder`.
     void load(const std::string& state, const std::string& folder);

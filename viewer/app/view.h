@@ -205,7 +205,7 @@ private:
     std::uint64_t taken_request_count_ = 0;
     std::string note_;
     SteadyClock::time_point note_since_; // when note_ was set
-    bool failed_ = false;                // the last load
+    bool failed_ = false;                // the last request failed
     std::atomic<bool> shaders_changed_{false};
     bool take_trace(); // shows the trace that tracer_ has made
 

@@ -29,6 +29,7 @@ public:
     [[nodiscard]] View& current() { return *current_; }
     /// The plant view; null if another kind of view is shown.
     [[nodiscard]] PlantView* plant() { return plant_; }
+    /// The forest view; null if another kind of view is shown.
     [[nodiscard]] ForestView* forest() { return forest_; }
 
     /// Opens another file, a scene as a forest or a grammar as a plant, and moves the camera so

@@ -162,8 +162,8 @@ void draw_wind(Wind& wind) {
     ImGui::SliderFloat("Gusts", &wind.gust, 0.0F, 2.0F, "%.2f");
 }
 
-void draw_sun(const SceneLight& own, SceneLight& light) {
-    const SceneLight shown = replaced(own, light);
+void draw_sun(const SceneLight& scene, SceneLight& light) {
+    const SceneLight shown = replaced(scene, light);
     SunPlace sun = shown.sun.value_or(sun_of(Light{}));
     double turbidity = shown.turbidity.value_or(kDefaultTurbidity);
     constexpr double kZero = 0.0;

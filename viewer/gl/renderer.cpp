@@ -214,9 +214,9 @@ public:
         if (!is_forest_) {
             return true;
         }
-        const bool all = forest_.bake_impostors(seconds, textures_);
+        const bool all_baked = forest_.bake_impostors(seconds, textures_);
         invalidate_shadows();
-        return all;
+        return all_baked;
     }
     void change_tree(std::uint32_t index, const Tree& tree, bool alive) override {
         forest_.change_tree(index, tree, alive);

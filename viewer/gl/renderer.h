@@ -156,9 +156,9 @@ struct ForestFrameStats {
 
 /// Sizes of the forest that is shown.
 struct ForestSizes {
-    std::uint64_t trees = 0; // number of trees
-    std::uint64_t tree_bytes = 0;
-    std::uint64_t branch_bytes = 0;
+    std::uint64_t trees = 0;         // number of trees
+    std::uint64_t tree_bytes = 0;    // records of trees, on the device and in memory
+    std::uint64_t branch_bytes = 0;  // branches of near trees
     std::uint64_t culling_bytes = 0; // buffers of the compute shaders, with their branches
     std::uint64_t mesh_bytes = 0;    // meshes of branches
     std::uint64_t texture_bytes = 0;

@@ -23,7 +23,7 @@ constexpr float kSteepest = 1.553F;  // radians, max angle of the view above or 
 constexpr float kMinField = 1.0F;    // degrees
 constexpr float kMaxField = 170.0F;  // degrees
 constexpr float kNearest = 0.02F;    // m, min distance of the near plane
-constexpr float kMaxDistance = 1e7F; // m, of eye and target
+constexpr float kMaxDistance = 1e7F; // m, max coordinate of eye and target, and max distance
 constexpr double kNearWorld =
     16'384.0; // m, max distance along X and Z of cameras without an origin
 

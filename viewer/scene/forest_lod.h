@@ -78,7 +78,7 @@ struct BlendRange {
 
 /// An impostor of a tree or of a cell.
 struct ImpostorEntry {
-    std::uint32_t index = 0;
+    std::uint32_t index = 0; // of the tree (lod_tree()) or of the cell
     BlendRange range;
 
     friend bool operator==(const ImpostorEntry&, const ImpostorEntry&) = default;
@@ -306,7 +306,8 @@ private:
     /// Copies the trees and cells of a shown square, with places relative to origin_.
     void place_square(std::uint32_t index);
     void list_visible_cells(const Frustum& frustum);
-    /// Lists the visible cells among the `count` cells from index `first` on.
+    /// Lists the visible cells among the `count` cells from index `first` on. `order`: their
+    /// VisibleCell::order.
     void list_visible_cells(const Frustum& frustum,
                             std::uint32_t first,
                             std::uint32_t count,

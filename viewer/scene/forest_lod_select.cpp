@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kMinClusterTrees = 8; // min trees of a cluster
 constexpr std::uint32_t kFramesKept = 32;     // frames for which unused branches stay in the pool
 constexpr int kDetailSteps = 24;              // number of bisections
-constexpr float kNearest = 0.1F;              // m: min distance
+constexpr float kNearest = 0.1F;              // m; shorter distances count as this one
 
 float pixels_of(const Frustum& frustum, const glm::vec3& place, float height) {
     return height * frustum.pixels / std::max(glm::distance(frustum.eye, place), kNearest);
@@ -357,9 +357,9 @@ void ForestLod::list_branches(const Frustum& frustum, const LodOptions& options)
         ++lists_.trees_of_level[level];
         const auto end = static_cast<std::uint32_t>(visible_branches_.size());
         const auto add_level = [&](std::uint32_t begin, std::uint32_t group) {
-            const auto last = static_cast<std::uint32_t>(visible_branches_.size());
-            visible_trees_.push_back({begin, last, first_mesh_[tree.form] + group * instances});
-            for (std::uint32_t i = begin; i < last; ++i) {
+            const auto after = static_cast<std::uint32_t>(visible_branches_.size());
+            visible_trees_.push_back({begin, after, first_mesh_[tree.form] + group * instances});
+            for (std::uint32_t i = begin; i < after; ++i) {
                 const std::uint32_t mesh = pool_.branches()[visible_branches_[i].slot()].mesh;
                 ++mesh_counts_[visible_trees_.back().first_mesh + mesh];
             }

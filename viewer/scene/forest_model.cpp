@@ -16,7 +16,7 @@ namespace {
 
 /// By level: min radius of twigs, as a fraction of the tree's height.
 constexpr std::array<float, kTreeLevels> kMinTwigRadius = {0.0F, 0.0F, 0.0008F, 0.0016F};
-/// By level: one of this many leaves is shown.
+/// By level: number of leaves of which one is shown.
 constexpr std::array<std::uint32_t, kTreeLevels> kLeavesPerShownLeaf = {1, 1, 2, 4};
 /// Max number of impostors of all forms together; if there are more forms, each has one impostor.
 constexpr std::size_t kMaxTotalImpostors = 16;
@@ -58,7 +58,7 @@ Sphere joined(const Sphere& a, const Sphere& b) {
     }
     const float radius = 0.5F * (distance + a.radius + b.radius);
     return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance),
-            radius * 1.0001F}; // more than rounding errors
+            radius * 1.0001F}; // larger, to cover rounding errors
 }
 
 /// Finds the first tree whose first instance is the whole plant `instance`.

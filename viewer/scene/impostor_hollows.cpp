@@ -14,7 +14,7 @@ namespace lsys::view {
 namespace {
 
 /// Mean depth, 0 to 1, of the opaque parts around a texel of a finer mip level. `coarse`: a level
-/// with texels of `step` texels of the finer one; `low`, `high`: bounds of the tile in it.
+/// whose texels are `step` texels of the finer level wide; `low`, `high`: bounds of the tile in it.
 float depth_around(const ImpostorTexels& coarse,
                    const glm::vec2& texel,
                    float step,

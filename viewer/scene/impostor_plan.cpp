@@ -17,7 +17,7 @@ constexpr std::uint32_t kFinestLevel = 1;
 constexpr double kMaxTriangles = 30'000.0;
 constexpr std::uint32_t kClusterRow = 4; // trees along a side of a cluster
 
-/// A number from 0 to 1 that a hash of `a` and `b` determines.
+/// A pseudo-random number from 0 to 1, the hash of `a` and `b`.
 float random_unit(std::uint32_t a, std::uint32_t b) {
     return unit_float(lattice32(a, b));
 }

@@ -41,8 +41,8 @@ std::vector<std::uint32_t> smoothed_opacities(const ImpostorTexels& picture) {
     return both;
 }
 
-/// Smoothed opacity from which the texels around a place are opaque, so that as many are as their
-/// mean opacity demands; 0 if they are empty. `window`: for reuse.
+/// Smoothed opacity from which on texels of `around` are opaque, so that their opaque fraction is
+/// their mean opacity; 0 if they are empty. `window`: a scratch buffer.
 float threshold_around(const ImpostorTexels& picture,
                        const std::vector<std::uint32_t>& smoothed,
                        const Tile& around,
@@ -69,9 +69,9 @@ float threshold_around(const ImpostorTexels& picture,
 struct Thresholds {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    std::vector<float> values; // 0: none
+    std::vector<float> values; // by row; 0: the block is empty
 
-    /// `x`, `y`: in blocks, from the middle of the first one on.
+    /// The threshold at a place. `x`, `y`: in blocks, from the middle of the first block on.
     [[nodiscard]] float at(float x, float y) const {
         float sum = 0.0F;
         float weights = 0.0F;

@@ -28,7 +28,8 @@ void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 /// Darkens texels that lie deeper than those around them and lightens those that stand out, which
 /// light at the surface of a whole crown does not do (Luft, Colditz and Deussen 2006, "Image
 /// Enhancement by Unsharp Masking the Depth Buffer"). The mean lightness of each tile stays.
-/// `tile`: side of a tile, a multiple of 8; `depth`: depth of a tile in depths of a tree.
+/// `tile`: side of a tile in texels, a multiple of 8. `depth`: depth in m of the tree or cluster in
+/// a tile, divided by the depth of a single tree; 1 for trees.
 void shade_hollows(ImpostorTexels& picture, std::uint32_t tile, float depth);
 
 /// Opacities with as many opaque texels in each part of the picture as its mean opacity demands;

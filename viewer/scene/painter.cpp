@@ -14,8 +14,8 @@ namespace lsys::view {
 namespace {
 
 constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22; // max number of squares
-constexpr std::uint32_t kPaintGeneration =
-    0x5041494EU; // differs from the numbers by which placements draw
+// Generation in the counter of Philox for painted trees; no placement draws with this number.
+constexpr std::uint32_t kPaintGeneration = 0x5041494EU;
 // Number of random places that are tried per tree that still fits into the brush; max number of
 // places tried per call.
 constexpr double kTries = 4.0;
@@ -78,7 +78,7 @@ Painter::Painter(std::span<const Tree> placed,
 }
 
 bool Painter::move_to(std::span<const Tree> placed, const Terrain& terrain) {
-    const bool same =
+    const bool is_unchanged =
         std::equal(placed.begin(), placed.end(), placed_.begin(), placed_.end(),
                    [](const Tree& a, const Tree& b) {
                        return a.position == b.position && a.yaw == b.yaw && a.scale == b.scale &&
@@ -87,12 +87,12 @@ bool Painter::move_to(std::span<const Tree> placed, const Terrain& terrain) {
         std::all_of(painted_.begin(), painted_.end(), [&](const Tree& tree) {
             return terrain.height(tree.position.x, tree.position.z) == tree.position.y;
         });
-    if (same) {
+    if (is_unchanged) {
         placed_ = placed;
         terrain_ = &terrain;
         turned_.clear();
     }
-    return same;
+    return is_unchanged;
 }
 
 std::uint32_t Painter::cell_of(float x, float z) const {
@@ -173,15 +173,15 @@ std::span<const std::uint32_t> Painter::sense_around(std::span<const TreeChange>
         collect_near(index, around);
     }
     make_unique(around);
-    std::vector<Tree> all;
+    std::vector<Tree> neighbours;
     for (const std::uint32_t index : around) {
-        all.push_back(tree(index));
+        neighbours.push_back(tree(index));
     }
     std::vector<Tree> trees;
     for (const std::uint32_t index : affected) {
         trees.push_back(tree(index));
     }
-    sense_surroundings(kinds, all, trees, 1);
+    sense_surroundings(kinds, neighbours, trees, 1);
     for (std::size_t i = 0; i < trees.size(); ++i) {
         if (std::bit_cast<std::uint32_t>(trees[i].yaw) !=
             std::bit_cast<std::uint32_t>(tree(affected[i]).yaw)) {
@@ -225,13 +225,13 @@ void Painter::forget_undone() {
         saved_ = kNone;
     }
     const std::size_t first = strokes_[done_].first;
-    std::size_t kept = painted_.size();
+    std::size_t kept_count = painted_.size();
     for (std::size_t i = first; i < log_.size(); ++i) {
         if (log_[i].alive) { // the first entry of a painted tree adds it
-            kept = std::min<std::size_t>(kept, log_[i].index - placed_.size());
+            kept_count = std::min<std::size_t>(kept_count, log_[i].index - placed_.size());
         }
     }
-    while (painted_.size() > kept) {
+    while (painted_.size() > kept_count) {
         const PaintedTree& last = paints_.back();
         head_[cell_of(last.x, last.z)] = next_.back();
         painted_.pop_back();

@@ -28,7 +28,7 @@ struct Brush {
 /// A tree that was added or removed.
 struct TreeChange {
     std::uint32_t index = 0; // index for Painter::tree()
-    bool alive = false;
+    bool alive = false;      // whether the tree exists after the change
 };
 
 class Painter {
@@ -45,7 +45,7 @@ public:
     /// any effect, if they are not equal.
     [[nodiscard]] bool move_to(std::span<const Tree> placed, const Terrain& terrain);
 
-    /// Number of placed trees, which have the first indices; and number of these and all trees ever
+    /// Number of placed trees, which have the first indices, plus the number of all trees ever
     /// painted.
     [[nodiscard]] std::uint32_t tree_count() const {
         return static_cast<std::uint32_t>(placed_.size() + painted_.size());
@@ -133,13 +133,13 @@ private:
     std::uint64_t draws_ = 0; // count of random numbers used
 
     // Trees by square of the ground: placed trees in ranges, painted trees in linked lists.
-    float cell_ = 1.0F; // m
+    float cell_ = 1.0F; // m, side of a square
     std::uint32_t columns_ = 1;
     std::uint32_t rows_ = 1;
     LargeVector<std::uint32_t> first_; // by square: index in items_
     LargeVector<std::uint32_t> items_; // indices of placed trees, by square
-    LargeVector<std::uint32_t> head_;  // by square: index in painted_
-    LargeVector<std::uint32_t> next_;  // by painted tree
+    LargeVector<std::uint32_t> head_;  // by square: first painted tree, index in painted_
+    LargeVector<std::uint32_t> next_;  // by painted tree: the next painted tree of its square
 
     std::vector<TreeChange> log_; // changes of all strokes, undone ones included
     std::vector<Stroke> strokes_;

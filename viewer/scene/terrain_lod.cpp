@@ -13,6 +13,7 @@ namespace lsys::view {
 
 namespace {
 
+// Number of cells along a side of a node.
 constexpr std::int32_t kNodeCells = 2 * static_cast<std::int32_t>(kPatchCells);
 constexpr float kNearestRange = 34.0F; // m, range of level 0
 // Fraction of the range of a level at which its vertices begin to morph. Levels have no gaps

@@ -35,9 +35,9 @@ struct TerrainPatch {
 
 /// Heights of a level in a square around the camera.
 struct HeightGrid {
-    glm::ivec2 origin{}; // first texel, in cells of the level from the origin
-    bool is_valid = false;
-    float lowest = 0.0F; // m
+    glm::ivec2 origin{};   // first texel, in cells of the level from the origin
+    bool is_valid = false; // the grid has heights
+    float lowest = 0.0F;   // m
     float highest = 0.0F;
     std::vector<float> heights; // m, in rows along X
     /// Fraction of the ground that crowns hide, stored like `heights`; empty without GroundCover.
@@ -102,6 +102,7 @@ private:
     /// Draws a node, or its children. Returns whether it was drawn.
     bool visit(const Node& node, const Frustum& frustum);
     [[nodiscard]] float distance_to(const Node& node) const; // from the eye
+    /// Whether the square of `cells` by `cells` cells from the lowest corner of `at` is visible.
     [[nodiscard]] bool
     is_visible(const TerrainPatch& at, std::int32_t cells, const Frustum& frustum) const;
 

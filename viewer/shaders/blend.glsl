@@ -25,8 +25,8 @@ void keep_cover_in_range(float opacity, vec2 range) {
     }
 }
 #else
-// The samples of a pixel whose thresholds are in `range`, as a mask. Thresholds are evenly spaced and
-// the same in all pixels, because others show as dots; refined pictures have others.
+// Mask of the samples of a pixel whose thresholds are in `range`. Thresholds are evenly spaced, and
+// equal in all pixels, because random ones show as dots; each refinement shifts the thresholds.
 int samples_in(vec2 range) {
     float first = fract(0.5 + 0.618034 * frame.time_before.y);
     int mask = 0;
@@ -45,8 +45,8 @@ void keep_samples(int mask) {
 void keep_range(vec2 range) {
     keep_samples(samples_in(range));
 }
-// Fraction of a pixel that a cut-out picture covers. The edge lies at opacity 0.5; it is a pixel
-// wide with multisampling, else hard. Call the function before any discard.
+// Fraction of a pixel that a cut-out picture covers. Its edge lies at opacity 0.5 and is one pixel
+// wide with multisampling, else hard. Call before any discard, which would spoil fwidth().
 float cut_out_cover(float opacity) {
     float cover = (opacity - 0.5) / max(fwidth(opacity), 1e-4) + 0.5;
     return gl_NumSamples > 1 ? clamp(cover, 0.0, 1.0) : step(0.5, opacity);

@@ -74,7 +74,7 @@ void main() {
     moved = swayed_before(shadow_place, tree, kFlutter) - world;
 #endif
 #if QUALITY > 1
-    shadow_place = world; // it shows them in the wind
+    shadow_place = world; // with QUALITY 2 the shadow map shows the trees in the wind
 #endif
     vec3 surface = rotate(turn, octahedral(normal));
     uv = texture_coordinate;

@@ -12,7 +12,7 @@ vec2 openness_at(vec2 place) {
     return mix(textureLod(crown_map, at * 0.5 + 0.5, 0.0).rg, vec2(1.0),
                smoothstep(0.8, 1.0, edge));
 }
-// Fraction of the ambient light that is left there.
+// Fraction of the ambient light that arrives at a place with that openness.
 float ambient_left(vec2 openness) {
     return mix(0.55, 1.0, openness.x) * mix(0.35, 1.0, openness.y);
 }

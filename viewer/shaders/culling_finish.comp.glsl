@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Impostors of near trees that are blended with their branches, or whose branches have no room.
+// Lists impostors of near trees that blend with their branches, or whose branches have no room.
 // Runs in one workgroup. Sets the draws of impostors.
 #include "culling.glsl"
 layout(local_size_x = 256) in;

@@ -6,7 +6,7 @@ layout(std430, binding = 6) buffer Codes { uvec2 codes[]; }; // class and value 
 layout(std430, binding = 7) buffer Sums { uvec4 sums[]; };   // sums of each workgroup
 shared uvec4 partial[kBlock];
 
-// Sum over the invocations before this one. `total`: over the whole workgroup.
+// Sum of `value` over the invocations before this one. `total`: sum over the whole workgroup.
 uvec4 sum_before(uvec4 value, out uvec4 total) {
     uint at = gl_LocalInvocationIndex;
     partial[at] = value;

@@ -17,7 +17,7 @@ uint part_count() {
 layout(local_size_x = 1024) in;
 layout(std430, binding = 16) buffer Keys { uint keys[]; }; // by key: count, first
 shared uint partial[1024];
-// Sum over the invocations before this one; `total` over all.
+// Sum of `value` over the invocations before this one. `total`: sum over all invocations.
 uint sum_before(uint value, out uint total) {
     uint at = gl_LocalInvocationIndex;
     partial[at] = value;

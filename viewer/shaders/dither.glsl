@@ -13,7 +13,7 @@ float stratified_random(uint seed, float step) {
     uint place = ((at.x & 1u) << 1u | ((at.x ^ at.y) & 1u)) ^ (bits & 3u);
     return fract(float(bits >> 8u) / 16777216.0 + step * float(place));
 }
-// A threshold for smooth colours; those of neighbours lie far apart (Jimenez 2014, "Next Generation
+// A threshold for smooth colours, far from those beside it (Jimenez 2014, "Next Generation
 // Post Processing in Call of Duty", interleaved gradient noise).
 float dither_threshold() {
     vec2 at = floor(gl_FragCoord.xy) + frame.viewport.xy;

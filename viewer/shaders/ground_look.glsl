@@ -17,7 +17,7 @@ float widest_noise(vec2 place, float level) {
     vec2 at = mat2(0.8, 0.6, -0.6, 0.8) * place * (1.0 / 611.0) + widest_shift;
     return textureLod(noise, at, level).b;
 }
-// Look of a place `away` m from the eye. `steep`: 1 - cosine of the slope; `widest`: its noise.
+// Look of a place `away` m from the eye. `steep`: 1 - cosine of slope; `widest`: widest_noise().
 GroundLook ground_look(vec2 place, float away, float steep, float widest) {
     // Noise tiles of 173, 37 and 3.1 m; the two smaller ones fade before their repetition shows.
     vec4 large_noise = texture(noise, place * (1.0 / 173.0) + noise_shifts[0]);

@@ -98,7 +98,7 @@ void main() {
 #ifdef MOVES
     moved = swayed_before(unswayed, tree, 0.0) - world_position;
 #endif
-    // Place of the shadow map, which shows the trees without wind, or in it.
+    // Place for the shadow map: with QUALITY 2 it shows the trees in the wind, else without wind.
 #if QUALITY > 1
     vec3 shadow_place = world_position;
 #else

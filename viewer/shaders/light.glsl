@@ -28,7 +28,7 @@ vec3 shadow_map_position(vec3 world_position, vec3 offset) {
 const float kSunSpread = 0.00465; // tangent of half the angle that the sun fills
 const int kDepthTaps = 12;
 const int kSoftTaps = 20;
-// A place of a disc that `count` places fill evenly, after Vogel 1979.
+// Place number `index` of `count` places that fill a unit disc evenly (Vogel 1979). `turn`: angle.
 vec2 disc_place(int index, int count, float turn) {
     float angle = 2.3999632 * float(index) + turn;
     return sqrt((float(index) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
@@ -36,7 +36,7 @@ vec2 disc_place(int index, int count, float turn) {
 float soft_sunlight(sampler2DShadow map, sampler2D depths, vec3 at, float depth) {
     float texel = frame.ground.w;
     float spread = kSunSpread * depth; // radius of the edge per depth
-    // The disc has another turn at each place, so that the taps leave no copies of an edge.
+    // Each place turns the disc by another angle; else the taps would show copies of an edge.
     vec2 cell = floor(at.xy / texel * 2.0);
     float turn = 6.2831853 * fract(52.9829189 * fract(dot(cell, vec2(0.06711056, 0.00583715))));
     float search = max(spread * at.z, 2.0 * texel);

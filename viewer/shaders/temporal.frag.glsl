@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mixes a picture with the mix of the pictures before it: the place of each pixel is found again in
-// the picture before, and what is seen there is limited to the colours around the pixel now (Karis
+// Mixes a picture with the history, the mix of earlier pictures: each pixel finds its place in
+// the history, whose colour there is limited to the colours around the pixel now (Karis
 // 2014, "High-Quality Temporal Supersampling"; Salvi 2016, "An Excursion in Temporal Supersampling").
 #include "frame.glsl"
 layout(binding = 1) uniform sampler2D picture;
@@ -74,7 +74,7 @@ void main() {
         return;
     }
     vec3 spread = sqrt(max(squares - mean * mean, vec3(0.0)));
-    // The history of a place that stays is trusted more.
+    // The history of a place at rest has wider limits.
     float still = 1.0 - smoothstep(0.02, 0.3, length(step * size));
     vec3 box = mix(1.0, 3.0, still) * spread + vec3(1e-3);
     vec3 old = to_ycocg(sharp_history(uv)) - mean;

@@ -19,7 +19,7 @@
 
 namespace lsys::web {
 
-/// A plant that grows: the grammar outlives its growth.
+/// A plant that grows. `growth` refers to `grammar`.
 struct Growing {
     Grammar grammar;
     std::optional<PlantGrowth> growth;

@@ -170,6 +170,7 @@ def _png(plant, width=320, height=400):
 
 
 def _html(text, picture):
+    """A figure of HTML with `picture`, an SVG, and `text` without its angle brackets below it."""
     caption = html.escape(text.strip("<>"))
     return f"<figure>{picture}<figcaption>{caption}</figcaption></figure>"
 
@@ -269,7 +270,7 @@ def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, spec
 
     grammars: one path or several. positions: (trees, 3), m. rotation: radians about +Y. key: a
     number that determines the branches of a tree; None: its index. species: index in `grammars`.
-    age: years; 0: the last stage. Other arguments: as for Forest().
+    age: years; 0: the last stage, which has the most generations. Other arguments: as for Forest().
     """
     positions = np.asarray(positions, np.float32)
     if positions.ndim != 2 or positions.shape[1] != 3:

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Types of the package lsys. Arrays that are views are read-only."""
+"""Types of the package lsys. Arrays that are views are read-only.
+
+Lengths are in metres, masses in kilograms; +Y is up."""
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,8 +20,9 @@ from .errors import (
 )
 
 _Path = Union[str, "os.PathLike[str]"]
-_Receive = Callable[[str, bytes, bool], Optional[bool]]
+_Receive = Callable[[str, bytes, bool], Optional[bool]]  # name, bytes, is_last; False ends the call
 _Setting = Union[str, float, Sequence[Union[str, float]]]
+# Arguments: generation, positions, headings, ups, parameters.
 _Environment = Callable[
     [int, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float32]],
     ArrayLike,
@@ -52,7 +55,7 @@ TREE: np.dtype[np.void]
 INSTANCE: np.dtype[np.void]
 INSTANCE_GROUP: np.dtype[np.void]
 
-class Place:
+class Place:  # lines and columns from 1; offsets in bytes; the end is exclusive
     @property
     def file(self) -> str: ...
     @property
@@ -80,7 +83,7 @@ class Fix:
     @property
     def edits(self) -> list[Edit]: ...
     @property
-    def certain(self) -> bool: ...
+    def certain(self) -> bool: ...  # no other repair is plausible
 
 class Label:
     @property
@@ -98,9 +101,9 @@ class Diagnostic:
     @property
     def place(self) -> Optional[Place]: ...
     @property
-    def label(self) -> str: ...
+    def label(self) -> str: ...  # text at `place`; may be empty
     @property
-    def labels(self) -> list[Label]: ...
+    def labels(self) -> list[Label]: ...  # further places
     @property
     def notes(self) -> list[str]: ...
     @property
@@ -112,31 +115,31 @@ class Constant:
     @property
     def name(self) -> str: ...
     @property
-    def is_parameter(self) -> bool: ...
+    def is_parameter(self) -> bool: ...  # a `#param`
     @property
-    def value(self) -> Optional[float]: ...
+    def value(self) -> Optional[float]: ...  # None: random
     @property
-    def bounds(self) -> Optional[tuple[float, float]]: ...
+    def bounds(self) -> Optional[tuple[float, float]]: ...  # of a `#param`
 
-class PredictedSize:
+class PredictedSize:  # bounds of the number of modules of a generation
     @property
     def low(self) -> float: ...
     @property
     def high(self) -> float: ...
     @property
-    def low_segments(self) -> float: ...
+    def low_segments(self) -> float: ...  # of the number of segments
     @property
     def high_segments(self) -> float: ...
     @property
-    def max_bytes(self) -> int: ...
+    def max_bytes(self) -> int: ...  # of a word of `high` modules
 
 class ModuleKind:
     @property
     def name(self) -> str: ...
     @property
-    def stored_parameters(self) -> int: ...
+    def stored_parameters(self) -> int: ...  # of each module, in Word.parameters
     @property
-    def constants(self) -> list[float]: ...
+    def constants(self) -> list[float]: ...  # parameters of each module, if none are stored
 
 class Word:
     def __len__(self) -> int: ...
@@ -146,29 +149,29 @@ class Word:
     @property
     def seed(self) -> int: ...
     @property
-    def kinds(self) -> list[ModuleKind]: ...
+    def kinds(self) -> list[ModuleKind]: ...  # by code
     @property
-    def codes(self) -> NDArray[np.unsignedinteger[Any]]: ...
+    def codes(self) -> NDArray[np.unsignedinteger[Any]]: ...  # one for each module
     @property
-    def parameters(self) -> NDArray[np.float32]: ...
+    def parameters(self) -> NDArray[np.float32]: ...  # the stored ones of all modules, in order
 
 class PlantSize:
     @property
-    def low(self) -> tuple[float, float, float]: ...
+    def low(self) -> tuple[float, float, float]: ...  # bounds, without radii
     @property
     def high(self) -> tuple[float, float, float]: ...
     @property
     def height(self) -> float: ...
     @property
-    def crown_width(self) -> float: ...
+    def crown_width(self) -> float: ...  # twice the largest horizontal distance from the start
     @property
-    def length(self) -> float: ...
+    def length(self) -> float: ...  # sum over all segments
     @property
     def volume(self) -> float: ...
     @property
     def mass(self) -> float: ...
     @property
-    def segments_by_order(self) -> list[int]: ...
+    def segments_by_order(self) -> list[int]: ...  # numbers of segments within 0, 1, ... brackets
 
 class Mesh:
     @property
@@ -180,7 +183,7 @@ class Mesh:
     @property
     def tangents(self) -> NDArray[np.float32]: ...
     @property
-    def colours(self) -> NDArray[np.uint32]: ...
+    def colours(self) -> NDArray[np.uint32]: ...  # of vertices: palette index, or 0x1RRGGBB in sRGB
     @property
     def indices(self) -> NDArray[np.uint32]: ...
     @property
@@ -190,13 +193,13 @@ class Mesh:
 
 class Plant:
     @property
-    def modules(self) -> int: ...
+    def modules(self) -> int: ...  # number of modules of the word
     @property
     def generations(self) -> int: ...
     @property
     def seed(self) -> int: ...
     @property
-    def files(self) -> list[str]: ...
+    def files(self) -> list[str]: ...  # meshes and pictures of `#object`, as written there
     @property
     def segments(self) -> NDArray[np.void]: ...
     @property
@@ -204,7 +207,7 @@ class Plant:
     @property
     def polygons(self) -> NDArray[np.void]: ...
     @property
-    def corners(self) -> NDArray[np.float32]: ...
+    def corners(self) -> NDArray[np.float32]: ...  # of all polygons
     def measure(self) -> PlantSize: ...
     def mesh(
         self,
@@ -249,9 +252,9 @@ class Grammar:
     @property
     def constants(self) -> list[Constant]: ...
     @property
-    def translation(self) -> str: ...
+    def translation(self) -> str: ...  # as .lsys; empty: the grammar is .lsys
     @property
-    def bytecode(self) -> bytes: ...
+    def bytecode(self) -> bytes: ...  # of a .lsb file
     def predict(self, generations: int) -> list[PredictedSize]: ...
     def derive(
         self, generations: Optional[int] = None, seed: Optional[int] = None, **kwargs: Unpack[_CallOptions]
@@ -269,11 +272,11 @@ class Species:
     @property
     def name(self) -> str: ...
     @property
-    def generations(self) -> list[int]: ...
+    def generations(self) -> list[int]: ...  # of each stage
     @property
-    def heroes(self) -> int: ...
+    def heroes(self) -> int: ...  # plants derived in full, per stage
     @property
-    def height(self) -> float: ...
+    def height(self) -> float: ...  # of `#set height`; 0: not set
 
 class ForestCounts:
     @property
@@ -287,16 +290,16 @@ class ForestCounts:
     @property
     def polygons(self) -> int: ...
     @property
-    def max_branches(self) -> int: ...
+    def max_branches(self) -> int: ...  # of one tree
 
 class Instances:
     def __len__(self) -> int: ...
     @property
     def meshes(self) -> list[Mesh]: ...
     @property
-    def array(self) -> NDArray[np.void]: ...
+    def array(self) -> NDArray[np.void]: ...  # of INSTANCE, by group
     @property
-    def groups(self) -> NDArray[np.void]: ...
+    def groups(self) -> NDArray[np.void]: ...  # of INSTANCE_GROUP: draw calls
     def read_matrices(self, to: NDArray[np.float32], first: int = 0) -> None: ...
     def matrices(self) -> NDArray[np.float32]: ...
 
@@ -330,7 +333,7 @@ class Forest:
     @property
     def species(self) -> list[Species]: ...
     @property
-    def trees(self) -> NDArray[np.void]: ...
+    def trees(self) -> NDArray[np.void]: ...  # of TREE
     @property
     def instances(self) -> Instances: ...
     def count(self) -> ForestCounts: ...

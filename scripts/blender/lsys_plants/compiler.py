@@ -35,6 +35,7 @@ def find_compiler(named=""):
 
 
 def split_options(text):
+    """The words of a text, with quotes as in a shell."""
     try:
         return shlex.split(text)
     except ValueError as error:
@@ -157,6 +158,7 @@ def split_arguments(arguments, command):
 
 
 def number(text, kind):
+    """Converts the value of an option. `kind`: int or float."""
     try:
         return kind(text)
     except ValueError as error:
@@ -164,6 +166,7 @@ def number(text, kind):
 
 
 def write_plant(file, compile_arguments, options, path, limit):
+    """Writes the file of `lsc export` by the module. `limit`: as in Module.attempt()."""
     threads = {"threads": options.pop("threads")} if "threads" in options else {}
     seed = number(options.pop("seed"), int) if "seed" in options else None
     height = number(options.pop("height"), float) if "height" in options else None
@@ -173,6 +176,7 @@ def write_plant(file, compile_arguments, options, path, limit):
 
 
 def write_forest(file, compile_arguments, options, path, limit):
+    """Writes the file of `lsc forest` by the module. `limit`: as in Module.attempt()."""
     threads = {"threads": options.pop("threads")} if "threads" in options else {}
     names = lsys.options("forest")
     save_options = {name: options.pop(name) for name in list(options) if name in names}

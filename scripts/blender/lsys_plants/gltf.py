@@ -105,17 +105,20 @@ class Gltf:
         self.extras = self.item("nodes", roots[0]).get("extras", {}) if roots else {}
 
     def item(self, kind, number):
+        """Item `number` of the list `kind` of the document, such as "nodes"."""
         items = self.document.get(kind, [])
         if not isinstance(number, int) or not 0 <= number < len(items):
             raise GltfError(f"no {kind} {number}")
         return items[number]
 
     def roots(self):
+        """Numbers of the nodes at the top of the scene."""
         if not self.document.get("scenes"):
             raise GltfError("no scene")
         return self.item("scenes", self.document.get("scene", 0)).get("nodes", [])
 
     def buffer(self, number):
+        """Bytes of a buffer. Cached."""
         if number not in self.buffers:
             uri = self.item("buffers", number).get("uri")
             self.buffers[number] = self.binary if uri is None else memoryview(self.fetch(uri))
@@ -147,6 +150,7 @@ class Gltf:
         return self.accessor_cache[number]
 
     def read_accessor(self, number):
+        """accessor() without the cache."""
         accessor = self.item("accessors", number)
         kind = accessor.get("componentType")
         if kind not in TYPE_CODES or accessor.get("type") not in COMPONENT_COUNTS:
@@ -200,12 +204,14 @@ class Gltf:
             stack += [(c, here, cell, depth + 1) for c in reversed(node.get("children", []))]
 
     def transform(self, node, number):
+        """Translation, rotation and scale of a node relative to its parent."""
         if "matrix" in node:
             raise GltfError(f"node {number} has a matrix, which is not read here")
         return (tuple(node.get("translation", IDENTITY[0])), tuple(node.get("rotation", IDENTITY[1])),
                 tuple(node.get("scale", IDENTITY[2])))
 
     def compose(self, parent, own, number):
+        """The transform `own`, relative to `parent`, as one relative to the scene. `number`: for messages."""
         if parent == IDENTITY:
             return own
         if own == IDENTITY:
@@ -218,6 +224,7 @@ class Gltf:
                 tuple(size[0] * v for v in own_size))
 
     def placement(self, node, number, here, cell, is_single):
+        """The Placement of the mesh of a node. `here`: transform of the node relative to the scene."""
         instancing = node.get("extensions", {}).get(INSTANCING)
         if instancing is None:
             return Placement(cell, node["mesh"], is_single, *(array.array("f", part) for part in here))
@@ -235,6 +242,7 @@ class Gltf:
         return Placement(cell, node["mesh"], False, *arrays)
 
     def moved(self, arrays, here, count, number):
+        """The translations, rotations and scales of instances in a node, relative to the scene."""
         moved = [array.array("f") for _ in arrays]
         for i in range(count):
             own = tuple(tuple(values[width * i : width * i + width])

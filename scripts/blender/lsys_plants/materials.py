@@ -32,6 +32,7 @@ class Materials:
         return self.made[key]
 
     def image(self, number, is_data):
+        """The image `number`, made at its first use. `is_data`: its numbers are not colours."""
         if (number, is_data) not in self.images:
             name, data = self.gltf.picture(number)
             image = self.bpy.data.images.new(name, 8, 8)
@@ -43,6 +44,7 @@ class Materials:
         return self.images[number, is_data]
 
     def texture(self, tree, info, is_data, row):
+        """A node of `tree` for `info`, a texture of a glTF material. `row`: its height in the node editor."""
         texture = self.gltf.item("textures", info["index"])
         sampler = self.gltf.item("samplers", texture["sampler"]) if "sampler" in texture else {}
         node = tree.nodes.new("ShaderNodeTexImage")

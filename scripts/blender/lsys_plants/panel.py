@@ -78,6 +78,7 @@ def changed(self, context):
 
 
 def run_pending():
+    """Updates the plants of `pending`."""
     names = sorted(pending)
     pending.clear()
     windows = bpy.context.window_manager.windows
@@ -150,6 +151,7 @@ class Settings(bpy.types.PropertyGroup):
 
 
 def path_of(settings):
+    """The path of the grammar or scene. CompilerError: there is no such file."""
     path = bpy.path.abspath(settings.file)
     if not os.path.isfile(path):
         raise CompilerError(f"{path or 'no file'}: there is no such file")

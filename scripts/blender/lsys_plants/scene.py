@@ -25,6 +25,7 @@ class Changes:
         return self
 
     def made(self, kind):
+        """The data of a kind that were made in the block."""
         return [item for item in getattr(bpy.data, kind) if item not in self.before[kind]]
 
     def __exit__(self, kind, *_):
@@ -75,12 +76,14 @@ class MeshMaker:
         self.rows = {}
 
     def attribute(self, number):
+        """The numbers of an accessor, a row for each item. Cached."""
         if number not in self.rows:
             values, width = self.gltf.accessor(number)
             self.rows[number] = numpy.array(values).reshape(-1, width)
         return self.rows[number]
 
     def get(self, number):
+        """The mesh `number` of the file."""
         if number not in self.made:
             self.made[number] = self.make(number)
         return self.made[number]
@@ -123,6 +126,7 @@ class MeshMaker:
         return mesh
 
     def assemble(self, name, columns, corners):
+        """Makes a mesh of Blender. `columns`: attributes of the vertices; `corners`: three per triangle."""
         mesh = bpy.data.meshes.new(name)
         faces = len(corners) // 3
         positions = upright(columns["POSITION"])

@@ -96,7 +96,7 @@ private:
     }
 
     Progress& progress_;
-    bool outside_;
+    bool outside_; // the fields described now are not part of the digest
 };
 
 } // namespace

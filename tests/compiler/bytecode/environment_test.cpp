@@ -14,7 +14,7 @@ using namespace lsys;
 
 namespace {
 
-/// The small program with an environment of each kind, which symbol 1 asks for the last of them.
+/// The small program with an environment of each kind; modules of symbol 1 ask the last of them.
 Bytecode sensing_bytecode() {
     Bytecode bytecode = test::small_bytecode();
     for (const EnvironmentKind kind : enumerators_of<EnvironmentKind>()) {

@@ -3,7 +3,7 @@
 
 namespace lsys::reference {
 
-// Partial sums that do not overlap, added from the largest on.
+// Keeps partial sums that do not overlap, and adds them from the largest on.
 double rounded_sum(const std::vector<double>& numbers) {
     std::vector<double> parts; // ascending, not overlapping
     for (double number : numbers) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `crowd`: every pair of places.
+// Environments of kind `crowd`, computed from every pair of places.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `map`: bilinear grey values of a picture.
+// Environments of kind `map`, computed as bilinear grey values of a picture.
 
 #pragma once
 
@@ -14,13 +14,13 @@ struct GreyPicture {
     std::vector<double> values; // 0 to 1
 };
 
-// The keys of the statement.
+// The keys of `#sense NAME map` (docs/language.md, section 13.2).
 struct GreyMap {
     GreyPicture picture;
     std::array<double, 2> size{1, 1}; // x, z
     std::array<double, 2> at{0, 0};   // x, z
-    double low = 0;
-    double high = 1;
+    double low = 0;                   // value of black
+    double high = 1;                  // value of white
 };
 
 // For each place: the value v of the map.

@@ -9,7 +9,7 @@
 
 namespace lsys::reference {
 
-// Up to four numbers for each place, made of all that a query holds.
+// Up to four numbers for each place, computed from all data of a query.
 Answers program_answers(std::uint32_t generation, const std::vector<Place>& places);
 
 } // namespace lsys::reference

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `shadow`: pyramids written voxel by voxel.
+// Environments of kind `shadow`, computed from pyramids that are stored voxel by voxel.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace lsys::reference {
 
-// The keys of the statement.
+// The keys of `#sense NAME shadow` (docs/language.md, section 13.2).
 struct Shadow {
     double cell = 0.5;
     int levels = 8;

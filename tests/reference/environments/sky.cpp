@@ -79,7 +79,7 @@ bool has_passed(const Leaves& leaves, const Cell& cell, const Vector& direction)
     return false;
 }
 
-// The depth along a ray.
+// The optical depth along the ray from `place` in `direction`.
 double depth_of(const Sky& sky, const Leaves& leaves, const Place& place, const Vector& direction) {
     Cell at = cell_of(place.position, sky.cell, 0);
     double passed = 0;

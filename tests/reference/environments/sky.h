@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `sky`: rays cell by cell, and every organ for every cell.
+// Environments of kind `sky`, computed by rays cell by cell, each cell compared with every organ.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace lsys::reference {
 
-// The keys of the statement.
+// The keys of `#sense NAME sky` (docs/language.md, section 13.2).
 struct Sky {
     double cell = 0.5;
     double extinction = 0.5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `space`: every marker against every place.
+// Environments of kind `space`, computed from every pair of a marker and a place.
 
 #pragma once
 
@@ -12,7 +12,7 @@ namespace lsys::reference {
 
 enum class Shape { Box, Ball, Dome, Cone, Mesh };
 
-// The keys of the statement.
+// The keys of `#sense NAME space` (docs/language.md, section 13.2).
 struct Space {
     Shape shape = Shape::Box;
     Surface mesh; // of Shape::Mesh

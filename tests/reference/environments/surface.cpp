@@ -108,12 +108,12 @@ Surface oriented(const Surface& surface) {
             next.push_back(first);
         }
         while (!next.empty()) {
-            const std::size_t one = next.back();
+            const std::size_t triangle = next.back();
             next.pop_back();
             for (std::size_t other = 0; other < result.size(); ++other) {
                 for (std::size_t side = 0; side < 3 && !done[other]; ++side) {
-                    const Vector& a = result[one][side];
-                    const Vector& b = result[one][(side + 1) % 3];
+                    const Vector& a = result[triangle][side];
+                    const Vector& b = result[triangle][(side + 1) % 3];
                     const bool same_way = goes(result[other], a, b);
                     if (same_way) { // neighbours that face one side go along an edge both ways
                         std::swap(result[other][1], result[other][2]);

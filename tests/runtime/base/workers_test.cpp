@@ -89,17 +89,18 @@ TEST_CASE("a piece that runs out of memory ends the task with std::bad_alloc") {
 TEST_CASE("helpers work beside the calling thread") {
     for (const std::uint32_t threads : {1U, 2U, 5U}) {
         Workers workers(threads);
-        const std::thread::id own = std::this_thread::get_id();
+        const std::thread::id calling_thread = std::this_thread::get_id();
         std::atomic<std::uint32_t> helpers{0};
-        std::atomic<bool> is_own{false};
+        std::atomic<bool> is_calling_thread{false};
         const auto caller = [&] {
-            is_own = std::this_thread::get_id() == own;
+            is_calling_thread = std::this_thread::get_id() == calling_thread;
             while (helpers < threads - 1) { // returns only if the helpers run at the same time
                 std::this_thread::yield();
             }
         };
-        workers.run(caller, [&] { helpers += std::this_thread::get_id() != own ? 1 : 0; });
-        CHECK(is_own);
+        workers.run(caller,
+                    [&] { helpers += std::this_thread::get_id() != calling_thread ? 1 : 0; });
+        CHECK(is_calling_thread);
         CHECK(helpers == threads - 1);
     }
     Workers workers(3);

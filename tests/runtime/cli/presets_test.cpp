@@ -269,12 +269,12 @@ TEST_CASE("a plant for a printer is one closed surface of 150 mm without coincid
             }
         }
     }
-    std::size_t bad = 0;
+    std::size_t open_edges = 0;
     for (const auto& [edge, times] : edges) {
         const auto back = edges.find({edge.second, edge.first});
-        bad += times == 1 && back != edges.end() && back->second == 1 ? 0U : 1U;
+        open_edges += times == 1 && back != edges.end() && back->second == 1 ? 0U : 1U;
     }
-    CHECK(bad == 0);
+    CHECK(open_edges == 0);
     const float tallest = high[2]; // +Z up
     // Branches are 1 mm wide, and their round ends protrude by 0.5 mm.
     CHECK(tallest >= 149.9F);

@@ -150,10 +150,10 @@ TEST_CASE("the origins of a word given at the start are kept or unknown") {
         REQUIRE(derivation.run_to(4) == std::nullopt);
         return derivation.take_word();
     };
-    const Word all = last(first.take_word(), true);
-    CHECK(traced(bytecode, all) == Lines{"F from p, generation 1", "F from p, generation 2",
-                                         "F from p, generation 3", "F from p, generation 4",
-                                         "A from p, generation 4"});
+    const Word fully_known = last(first.take_word(), true);
+    CHECK(traced(bytecode, fully_known) == Lines{"F from p, generation 1", "F from p, generation 2",
+                                                 "F from p, generation 3", "F from p, generation 4",
+                                                 "A from p, generation 4"});
 
     DeriveOptions plain;
     plain.generations = 4;
@@ -161,11 +161,11 @@ TEST_CASE("the origins of a word given at the start are kept or unknown") {
     REQUIRE(second.start() == std::nullopt);
     REQUIRE(second.run_to(2) == std::nullopt);
     CHECK(second.word().origins().empty());
-    const Word some = last(second.take_word(), true);
-    CHECK(traced(bytecode, some) == Lines{"F origin unknown, in the saved state of generation 2",
-                                          "F origin unknown, in the saved state of generation 2",
-                                          "F from p, generation 3", "F from p, generation 4",
-                                          "A from p, generation 4"});
+    const Word partly_known = last(second.take_word(), true);
+    CHECK(traced(bytecode, partly_known) ==
+          Lines{"F origin unknown, in the saved state of generation 2",
+                "F origin unknown, in the saved state of generation 2", "F from p, generation 3",
+                "F from p, generation 4", "A from p, generation 4"});
 
     REQUIRE(first.start() == std::nullopt);
     REQUIRE(first.run_to(2) == std::nullopt);

@@ -61,9 +61,9 @@ TEST_CASE("only productions whose condition holds take part") {
     std::string expected;
     for (std::uint64_t position = 0; position < 80; ++position) {
         const float u = u_at(7, 0, position, 0);
-        const bool one = position % 2 == 0;
-        const float first = one ? 0.5F / (0.5F + 0.5F) : 0.5F / (0.5F + 0.25F);
-        expected += one ? (first > u ? "a(1)" : "b(1)") : (first > u ? "b(2)" : "c(2)");
+        const bool is_one = position % 2 == 0;
+        const float first = is_one ? 0.5F / (0.5F + 0.5F) : 0.5F / (0.5F + 0.25F);
+        expected += is_one ? (first > u ? "a(1)" : "b(1)") : (first > u ? "b(2)" : "c(2)");
     }
     CHECK(derived_every_way(builder.build(), 1, 7) == expected);
 }
@@ -111,14 +111,14 @@ TEST_CASE("ranges are numbered after the choice, in the order of closing braces"
         const std::span<const float> values = derivation.word().parameters();
         REQUIRE(values.size() == 14);
         for (std::uint32_t module = 0; module < 2; ++module) {
-            const std::span<const float> own = values.subspan(module * 7, 7);
+            const std::span<const float> module_values = values.subspan(module * 7, 7);
             for (std::uint32_t number = 0; number < 4; ++number) {
-                CHECK(own[number] == at(module, number));
+                CHECK(module_values[number] == at(module, number));
             }
             // The inner range closes first, so it takes the first number.
-            CHECK(own[4] == draw_in_range(0.0F, at(module, 4), u_at(seed, 0, module, 5)));
-            CHECK(own[5] == at(module, 6));
-            CHECK(own[6] == 0.0F);
+            CHECK(module_values[4] == draw_in_range(0.0F, at(module, 4), u_at(seed, 0, module, 5)));
+            CHECK(module_values[5] == at(module, 6));
+            CHECK(module_values[6] == 0.0F);
         }
         static_cast<void>(derived_every_way(bytecode, 1, seed));
     }

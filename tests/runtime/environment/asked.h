@@ -51,7 +51,7 @@ struct Answers {
     std::vector<float> numbers;
 };
 
-/// The means with which an environment answers.
+/// Threads, memory and cancellation of an environment.
 struct Resources {
     std::uint32_t threads = 2;
     std::uint64_t max_bytes = ~std::uint64_t{0};

@@ -40,7 +40,7 @@ TEST_CASE("orientation in space has the sign of integer arithmetic") {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             rows[0][axis] = static_cast<std::int64_t>(random.below(1U << 18));
             rows[1][axis] = static_cast<std::int64_t>(random.below(1U << 18));
-            // Near the plane of the other two and the origin.
+            // A point near the plane of the other two points and the origin.
             rows[2][axis] = rows[0][axis] + rows[1][axis];
         }
         rows[2][random.below(3)] += static_cast<std::int64_t>(random.below(3)) - 1;

@@ -84,7 +84,7 @@ TEST_CASE("shadow reaches 255 layers down, and no further") {
     const Numbers numbers = ask_shadow(declared, places, {}).numbers;
     CHECK(numbers[0] == 0.75F);
     CHECK(numbers[12] == 1.0F); // the layer of the third place reaches 57 voxels there
-    // The same where places are dense: of two rows, the upper one is too high.
+    // Many places: those of the upper row, y = 256, are too high to shade the first place.
     declared.strength = 0.25F / 1024.0F;
     places.resize(1);
     for (int x = -32; x < 32; ++x) {

@@ -130,13 +130,13 @@ TEST_CASE("one direction has elevation 30 degrees towards +X") {
     declared.directions = 1;
     declared.extinction = 1.0F;
     // The ray leaves its cell at x = 1, after 1/cos 30 degrees - 0.5/cos 30 degrees of path.
-    const Numbers own =
+    const Numbers in_own_cell =
         ask_sky(declared, {{{0.1, 0.1, 0.1}, 0.75}}, {place_at(0.5, 0.0, 0.5)}, {}).numbers;
-    CHECK(own[0] == Approx(std::exp(-0.75 * 0.5 / std::sqrt(0.75))).epsilon(1e-6));
-    const Numbers next =
+    CHECK(in_own_cell[0] == Approx(std::exp(-0.75 * 0.5 / std::sqrt(0.75))).epsilon(1e-6));
+    const Numbers in_next_cell =
         ask_sky(declared, {{{1.9, 0.9, 0.9}, 0.75}}, {place_at(0.5, 0.0, 0.5)}, {}).numbers;
     // From x = 1 to x = 2 it rises by tan 30 degrees = 0.577, to 0.866: all in that cell.
-    CHECK(next[0] == Approx(std::exp(-0.75 / std::sqrt(0.75))).epsilon(1e-6));
+    CHECK(in_next_cell[0] == Approx(std::exp(-0.75 / std::sqrt(0.75))).epsilon(1e-6));
     CHECK(ask_sky(declared, {{{-0.5, 0.5, 0.5}, 9.0}}, {place_at(0.5, 0.0, 0.5)}, {}).numbers[0] ==
           1.0F);
 }

@@ -17,6 +17,7 @@
 
 namespace lsys::slow {
 
+/// A number in binary64.
 inline double wide(float number) {
     return static_cast<double>(number);
 }

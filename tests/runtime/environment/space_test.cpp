@@ -183,7 +183,7 @@ TEST_CASE("a mesh holds the markers that are inside") {
     const auto space = make_space(declared, files, 0, {&workers, nullptr, ~0ULL});
     REQUIRE_FALSE(space->begin(1).has_value());
     CHECK(bits_of(space->state()) == 3000);
-    // All are within the radius of the sphere, and most are beyond 0.7 times it.
+    // All markers are within the radius of the ball, and most are farther than 0.7 times it.
     std::vector<SensePlace> places(1);
     places[0].position = {10.0, 0.0, 0.0};
     CHECK(answers_of(*space, places)[0] == 3000.0F);

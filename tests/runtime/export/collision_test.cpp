@@ -127,14 +127,15 @@ TEST_CASE("a tree has few shapes, for its thickest and longest parts") {
     const std::vector<BoughPiece> pieces = find_boughs(plant);
     CHECK(pieces.size() >= 10);
     CHECK(pieces.size() <= kMaxCollisionShapes);
-    double all = 0.0;
+    double plant_area = 0.0;
     for (const Segment& segment : plant.segments) {
-        all += static_cast<double>(segment.length * (segment.base_radius + segment.tip_radius));
+        plant_area +=
+            static_cast<double>(segment.length * (segment.base_radius + segment.tip_radius));
     }
-    double found = 0.0;
+    double pieces_area = 0.0;
     std::set<std::uint32_t> segments;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        found += pieces[i].area;
+        pieces_area += pieces[i].area;
         segments.insert(pieces[i].segments.begin(), pieces[i].segments.end());
         CHECK((i == 0 || pieces[i].area <= pieces[i - 1].area));
     }
@@ -143,7 +144,7 @@ TEST_CASE("a tree has few shapes, for its thickest and longest parts") {
         count += piece.segments.size();
     }
     CHECK(count == segments.size()); // each segment is in one shape
-    CHECK((found >= 0.9 * all || pieces.size() == kMaxCollisionShapes));
+    CHECK((pieces_area >= 0.9 * plant_area || pieces.size() == kMaxCollisionShapes));
     CHECK(segments.contains(0));
 }
 

@@ -108,7 +108,7 @@ constexpr std::array kMethodsInBatches{"textDocument/documentSymbol", "textDocum
                                        "textDocument/diagnostic", "textDocument/codeLens"};
 constexpr std::array<const char*, 3> kLanguages{"lsys", "lsys", "cpfg"};
 
-/// A message; without a number it is a notification.
+/// A wrong message: a request or a notification.
 struct Mistake {
     const char* method;
     const char* params; // JSON

@@ -223,7 +223,7 @@ TEST_CASE("tangents follow u and mark mirrored texture coordinates") {
 
 TEST_CASE("every operation that places an object has a shape") {
     for (const TurtleOperation operation : enumerators_of<TurtleOperation>()) {
-        // The turtle places spheres and disks for these two.
+        // The turtle places the shapes of Sphere and Disk for these operations.
         const bool is_placed_as_another =
             operation == TurtleOperation::CentredSphere || operation == TurtleOperation::LevelDisk;
         // Files and organs have meshes of their own.

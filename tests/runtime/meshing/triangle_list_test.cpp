@@ -33,11 +33,16 @@ void put_bands(RingCorners low, std::uint32_t bands, Indices& to) {
     }
 }
 
-void put_fan(const RingCorners& ring, std::uint32_t point, bool own, bool upwards, Indices& to) {
+void put_fan(const RingCorners& ring,
+             std::uint32_t point,
+             bool has_point_per_side,
+             bool upwards,
+             Indices& to) {
     for (std::uint32_t i = 0; i < ring.sides; ++i) {
         const std::uint32_t a = corner(ring, i);
         const std::uint32_t b = corner(ring, i + 1);
-        to.insert(to.end(), {upwards ? a : b, upwards ? b : a, point + (own ? i : 0)});
+        to.insert(to.end(),
+                  {upwards ? a : b, upwards ? b : a, point + (has_point_per_side ? i : 0)});
     }
 }
 

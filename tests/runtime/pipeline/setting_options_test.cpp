@@ -64,8 +64,8 @@ std::vector<SettingText> one_of_each() {
 
 TEST_CASE("a setting given by an option compiles to the same bytes as one in the file") {
     const std::string plain = "#n = 3;\n#define a 2;\n#w : FF;\n#f : F : ~ 1 : F + F;\n";
-    const std::string own = compiled_with(plain, {});
-    REQUIRE_FALSE(own.empty());
+    const std::string plain_bytes = compiled_with(plain, {});
+    REQUIRE_FALSE(plain_bytes.empty());
     for (const SettingText& setting : one_of_each()) {
         CAPTURE(setting.key, setting.values);
         const Result<std::string> written =

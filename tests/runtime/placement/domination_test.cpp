@@ -107,9 +107,10 @@ TEST_CASE("in every year, plants whose circle overlaps that of a stronger plant 
         for (std::size_t i = 0; i < plants.size(); ++i) {
             bool dominated = false;
             for (std::size_t j = 0; j < plants.size() && !dominated; ++j) {
-                const float here = plants[i].radius * plants[i].vigour;
-                const float there = plants[j].radius * plants[j].vigour;
-                const bool stronger = there > here || (there == here && j < i);
+                const float strength = plants[i].radius * plants[i].vigour;
+                const float other_strength = plants[j].radius * plants[j].vigour;
+                const bool stronger =
+                    other_strength > strength || (other_strength == strength && j < i);
                 dominated = j != i && stronger && circles_overlap(plants[i], plants[j]);
             }
             // A plant may still be marked as dominated if the dominating plant died in the year

@@ -119,22 +119,23 @@ TEST_CASE("tapered pipes narrow to the width of the segment that continues them"
         REQUIRE(apply_pipe({2.0F, 0.03F}, kWood, kNoLimit, steps) == std::nullopt);
         REQUIRE(apply_pipe({2.0F, 0.03F, taper}, kWood, kNoLimit, plant) == std::nullopt);
         for (std::uint32_t i = 0; i < plant.segments.size(); ++i) {
-            const Segment& own = steps.segments[i];
-            const Segment* next = nullptr; // the child on the axis, else the thickest, the first
+            const Segment& stepped = steps.segments[i];
+            const Segment* next = nullptr; // child on the axis, else the first of the thickest
             for (std::uint32_t k = i + 1; k < plant.segments.size(); ++k) {
                 const Segment& child = steps.segments[k];
                 if (child.parent != i) {
                     continue;
                 }
-                const bool continues = child.order == own.order;
-                const bool is_better = next == nullptr || (continues && next->order != own.order) ||
-                                       (continues == (next->order == own.order) &&
+                const bool continues = child.order == stepped.order;
+                const bool is_better = next == nullptr ||
+                                       (continues && next->order != stepped.order) ||
+                                       (continues == (next->order == stepped.order) &&
                                         child.base_radius > next->base_radius);
                 next = is_better ? &child : next;
             }
-            CHECK(plant.segments[i].base_radius == own.base_radius);
-            const float rest = next == nullptr ? 0.0F : next->base_radius - own.base_radius;
-            CHECK(plant.segments[i].tip_radius == Approx(own.base_radius + taper * rest));
+            CHECK(plant.segments[i].base_radius == stepped.base_radius);
+            const float rest = next == nullptr ? 0.0F : next->base_radius - stepped.base_radius;
+            CHECK(plant.segments[i].tip_radius == Approx(stepped.base_radius + taper * rest));
         }
     }
     Skeleton fork; // a trunk with two limbs: one has one tip, the other two

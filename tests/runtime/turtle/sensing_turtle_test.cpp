@@ -116,11 +116,11 @@ public:
     }
 
     void read(const std::string& name, const std::vector<float>& arguments) {
-        const bool given = !arguments.empty();
-        const double first = given ? static_cast<double>(arguments[0]) : 0.0;
-        const double angle = given ? first : now_.angle;
+        const bool has_argument = !arguments.empty();
+        const double first = has_argument ? static_cast<double>(arguments[0]) : 0.0;
+        const double angle = has_argument ? first : now_.angle;
         if (name == "F" || name == "f" || name == "h") {
-            step(name, (given ? first : now_.step) * (name == "h" ? 0.5 : 1.0));
+            step(name, (has_argument ? first : now_.step) * (name == "h" ? 0.5 : 1.0));
         } else if (name == "+" || name == "-") {
             turn(now_.heading, now_.right, name == "+" ? angle : -angle);
         } else if (name == "^" || name == "&") {
@@ -132,16 +132,16 @@ public:
         } else if (name == "$") {
             upright();
         } else if (name == "s") {
-            now_.step *= given ? first : static_cast<double>(settings_.step_scale);
+            now_.step *= has_argument ? first : static_cast<double>(settings_.step_scale);
         } else if (name == "a") {
-            now_.angle *= given ? first : static_cast<double>(settings_.angle_scale);
+            now_.angle *= has_argument ? first : static_cast<double>(settings_.angle_scale);
         } else if (name == "[") {
             saved_.push_back(now_);
         } else if (name == "]") {
             now_ = saved_.back();
             saved_.pop_back();
         } else if (name == "S" || name == "C" || name == "D") {
-            object(name, given ? first : 1.0);
+            object(name, has_argument ? first : 1.0);
         } else if (name == "P") {
             places.push_back({now_.position, now_.heading, now_.right, now_.up});
         }

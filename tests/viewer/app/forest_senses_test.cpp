@@ -137,9 +137,9 @@ TEST_CASE("obstacles are drawn at their trees, and light at the nearest tree alo
     const SenseDrawing moved = make_forest_sense_drawing(
         document, trees, {true, false, false, false}, {{{"wall", {-1.0F, 0.0F, 0.0F}}}});
     CHECK(moved.vertices[6].position.x == Approx(2.0F).epsilon(1e-5));
-    const glm::dvec3 own = in_sensing_metres(document, trees[0], {0.0, 0.0, -2.0});
-    CHECK(own.x == Approx(1.0).epsilon(1e-6));
-    CHECK(own.z == Approx(0.0).margin(1e-6));
+    const glm::dvec3 in_tree = in_sensing_metres(document, trees[0], {0.0, 0.0, -2.0});
+    CHECK(in_tree.x == Approx(1.0).epsilon(1e-6));
+    CHECK(in_tree.z == Approx(0.0).margin(1e-6));
     // A ray from the small tree along -X meets its own wall, not that of the other tree.
     const auto hit =
         first_forest_obstacle(document, trees, {}, {{5.0, 1.0, 10.0}, {-1.0, 0.0, 0.0}});

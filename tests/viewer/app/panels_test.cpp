@@ -158,7 +158,8 @@ public:
         }
         return found;
     }
-    /// The widgets of a window that can have the keyboard, and are not reached by arrow keys. Precondition: the window has the keyboard.
+    /// The widgets of a window that can have the keyboard but that arrow keys do not reach.
+    /// Precondition: the window has the keyboard.
     std::vector<std::string> unreached(const char* name) {
         const ImGuiContext& context = *ImGui::GetCurrentContext();
         for (ImGuiID last = 0; last != context.NavId;) {

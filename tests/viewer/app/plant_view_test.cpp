@@ -317,10 +317,10 @@ TEST_CASE("values are not written to a file that has changed or cannot hold them
         return viewed.view.note();
     };
     write_text(folder / "part.lsys", "#set angle 25;\n");
-    const std::string own = "#w : F;\n";
-    CHECK(refused("a.lsys", own, own + "// edited\n") ==
+    const std::string plain = "#w : F;\n";
+    CHECK(refused("a.lsys", plain, plain + "// edited\n") ==
           "not written: `" + folder / "a.lsys" + "` has changed on disk since it was read");
-    CHECK(refused("a.lsys", own, "\xEF\xBB\xBF" + own).find("changed on disk") !=
+    CHECK(refused("a.lsys", plain, "\xEF\xBB\xBF" + plain).find("changed on disk") !=
           std::string::npos);
     const std::string including = "#include \"part.lsys\";\n#w : F;\n";
     CHECK(refused("b.lsys", including, including).find("stands in the included file") !=
@@ -473,10 +473,10 @@ TEST_CASE("keys change the display, and letters move the camera while flying") {
     CHECK(glm::dot(settings.camera.eye - before.eye, forward_of(before)) > 0.0F);
     flying.held = {};
     flying.motion = {50.0F, 0.0F};
-    const Camera there = settings.camera;
+    const Camera before_turn = settings.camera;
     controls.apply(flying, 0.1, 600.0F, viewed.view, panels);
-    CHECK(settings.camera.eye == there.eye);
-    CHECK_FALSE(settings.camera.target == there.target);
+    CHECK(settings.camera.eye == before_turn.eye);
+    CHECK_FALSE(settings.camera.target == before_turn.target);
     press(Key::Tab);
     CHECK_FALSE(panels.flies);
     press(Key::Q, true);

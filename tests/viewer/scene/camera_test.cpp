@@ -83,8 +83,8 @@ TEST_CASE("moving follows the axes of the picture, and turning keeps the positio
     const Camera to_right = moved(camera, 2.0F, 0.0F, 0.0F);
     CHECK(near(to_right.eye - camera.eye, 2.0F * right_of(camera)));
     CHECK(near(forward_of(to_right), forward_of(camera)));
-    const Camera there = moved(camera, 0.0F, 0.0F, 1.5F);
-    CHECK(near(there.eye - camera.eye, 1.5F * forward_of(camera)));
+    const Camera ahead = moved(camera, 0.0F, 0.0F, 1.5F);
+    CHECK(near(ahead.eye - camera.eye, 1.5F * forward_of(camera)));
     const Camera about = turned(camera, 0.5F, -0.2F);
     CHECK(about.eye == camera.eye);
     CHECK(std::abs(glm::dot(forward_of(about), forward_of(camera)) - 1.0F) > 0.05F);

@@ -128,10 +128,10 @@ TEST_CASE("only trees behind the ground are omitted") {
         const Frustum frustum = make_frustum(camera, 640, 480);
         ground.select(frustum);
         horizon.set_viewpoint(ground, eye);
-        const DrawLists all = lod.select(frustum, wood_lod());
-        const DrawLists& some = lod.select(frustum, wood_lod(), &horizon);
-        CHECK(all.occluded == 0);
-        hidden += some.occluded;
+        const DrawLists without_horizon = lod.select(frustum, wood_lod());
+        const DrawLists& with_horizon = lod.select(frustum, wood_lod(), &horizon);
+        CHECK(without_horizon.occluded == 0);
+        hidden += with_horizon.occluded;
         std::set<std::uint32_t> left;
         const auto collect = [&](const DrawLists& lists, const auto& take) {
             for (const ImpostorEntry& tree : lists.trees) {
@@ -144,9 +144,9 @@ TEST_CASE("only trees behind the ground are omitted") {
                 }
             }
         };
-        collect(some, [&](std::uint32_t tree) { left.insert(tree); });
+        collect(with_horizon, [&](std::uint32_t tree) { left.insert(tree); });
         std::size_t missing = 0;
-        collect(all, [&](std::uint32_t tree) {
+        collect(without_horizon, [&](std::uint32_t tree) {
             if (left.count(tree) != 0) {
                 return;
             }

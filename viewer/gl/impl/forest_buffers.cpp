@@ -75,6 +75,7 @@ static_assert(sizeof(TreeRecord) == 24);
 /// a larger buffer.
 constexpr std::size_t kRoomForTrees = std::size_t{1} << 14U;
 
+/// The record of a tree. `full`: the same tree with its yaw and number.
 TreeRecord record_of(const LodTree& tree, const Tree& full) {
     const float turns = full.yaw / (2.0F * std::numbers::pi_v<float>);
     const auto yaw = static_cast<std::uint32_t>(65536.0F * (turns - std::floor(turns))) & 0xFFFFU;
@@ -125,12 +126,12 @@ std::vector<std::uint16_t> add_materials(const std::vector<Material>& materials,
         if (const std::optional<PictureArrays::Place> place = pictures.place_of(material)) {
             record.kind |= place->layer << kLayerShift;
         }
-        const auto same =
+        const auto equal_record =
             std::find_if(records.begin(), records.end(), [&](const MaterialRecord& other) {
                 return other.colour == record.colour && other.kind == record.kind;
             });
-        numbers.push_back(static_cast<std::uint16_t>(same - records.begin()));
-        if (same == records.end()) {
+        numbers.push_back(static_cast<std::uint16_t>(equal_record - records.begin()));
+        if (equal_record == records.end()) {
             records.push_back(record);
         }
     }

@@ -60,9 +60,9 @@ struct CommandTemplates {
 
 /// Buffers that compute shaders have written and draws of a forest read.
 struct DeviceDraws {
-    GLuint branches = 0; // buffer of PoolBranch
-    GLuint entries = 0;  // buffer of pairs of a key and a BranchEntry
-    GLuint commands = 0;
+    GLuint branches = 0;              // buffer of PoolBranch
+    GLuint entries = 0;               // buffer of pairs of a key and a BranchEntry
+    GLuint commands = 0;              // buffer of DrawCommand
     std::vector<CommandRange> ranges; // as CommandTemplates::ranges
 };
 

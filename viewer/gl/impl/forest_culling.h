@@ -167,6 +167,7 @@ private:
     MappedBuffer states_; // CullingState of pictures, read back
     GpuTimer timer_;
     CullingTables table_layout_; // its member `words` is empty: tables_ has these words
+    // Buffers of the blocks of the same names in shaders/culling*.glsl, unless a comment says else.
     Buffer rays_;
     Buffer tables_;
     Buffer identities_;
@@ -181,12 +182,12 @@ private:
     Buffer near_; // near trees (culling_near.glsl)
     Buffer nodes_;
     Buffer branches_;
-    std::array<Buffer, 2> sorted_;
+    std::array<Buffer, 2> sorted_; // input and output of a pass of the sort, in turn
     Buffer digits_;
     Buffer keys_;
     Buffer command_keys_;
     Buffer commands_;
-    Buffer changes_;
+    Buffer changes_; // records of changed trees, from which apply_changes() copies
     TextureObject horizon_;
     std::vector<std::uint32_t> changed_; // numbers of trees for apply_changes()
     DeviceDraws draws_;

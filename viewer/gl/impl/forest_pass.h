@@ -54,6 +54,7 @@ public:
     [[nodiscard]] bool bake_impostors(double seconds, MaterialTextures& textures);
     /// Whether trees move in the wind of the prepared frame.
     [[nodiscard]] bool is_windy() const { return is_windy_; }
+    /// See Renderer::has_stand_ins().
     [[nodiscard]] bool has_stand_ins() const { return impostors_.is_filled(); }
     /// Colours the branches of this forest and of all later ones.
     void set_colours(BranchColours by);
@@ -84,7 +85,7 @@ public:
     /// Factor of the exposure for an eye below crowns, which has adapted to their shade. Call it
     /// after prepare().
     [[nodiscard]] float exposure_below_crowns(const glm::vec3& eye) const;
-    /// FrameBlock::hills: hills stand beyond the forest, none beyond a streamed one.
+    /// The value of FrameBlock::hills. Hills stand beyond a forest, none beyond a streamed forest.
     [[nodiscard]] glm::vec4 hills() const;
     /// Draws the trees in shadow map number `map` (below kNearMaps) as branches of a level into the
     /// bound framebuffer, moved by the wind of the prepared frame. The bound FrameBlock must have
@@ -195,7 +196,7 @@ private:
     double bake_seconds_ = 0.0;               // time to bake impostors of the forest
     double upload_seconds_ = 0.0;
     double cull_seconds_ = 0.0;              // time to choose trees for the prepared frame
-    double cull_cpu_seconds_ = 0.0;          // processor time of this
+    double cull_cpu_seconds_ = 0.0;          // processor time within cull_seconds_
     std::unique_ptr<ForestCulling> culling_; // null until the first cull_on_device(true)
     bool culls_on_device_ = false;           // compute shaders choose the trees of later forests
     bool is_culled_on_device_ = false;       // for the forest that is shown

@@ -14,7 +14,7 @@ struct BranchPrograms {
     ProgramObject plain;
     ProgramObject cut_out;
     ProgramObject one_sample_cut_out; // `cut_out` for frames with one sample per pixel
-    ProgramObject bumpy_cut_out;      // picture files with holes and a normal map; from Medium on
+    ProgramObject bumpy_cut_out;      // holes and a normal map; made from Medium on
 };
 
 struct ForestPrograms {

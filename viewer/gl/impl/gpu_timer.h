@@ -31,8 +31,8 @@ private:
         bool is_pending = false;
     };
     std::array<Span, kSpans> spans_;
-    std::size_t current_ = 0;
-    double milliseconds_ = 0.0;
+    std::size_t current_ = 0;   // index in spans_ of the last span that began
+    double milliseconds_ = 0.0; // duration of the last span whose result has arrived
 };
 
 } // namespace lsys::view

@@ -20,7 +20,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint32_t kSupersampling = 2; // along a side
+constexpr std::uint32_t kSupersampling = 2; // drawn texels per stored texel, along a side
 constexpr std::uint32_t kAtlasWidth = ImpostorAtlas::kYaws * ImpostorAtlas::kTile;
 constexpr std::uint32_t kAtlasHeight = ImpostorAtlas::kElevations * ImpostorAtlas::kTile;
 constexpr GLsizei kLevels = 6; // mip levels; tiles of the last have sides of 4 texels

@@ -32,7 +32,8 @@ public:
     [[nodiscard]] TextureObject make_opaque(const Texture& picture) const;
     /// Makes the texture of a normal map from a file.
     [[nodiscard]] TextureObject make_normals(const Texture& picture) const;
-    /// Makes array textures of pictures of equal size. `has_holes`: as in make(), for each layer.
+    /// Makes array textures of pictures of equal size. `has_holes`: texels may be transparent; then
+    /// all mip levels of a layer have the same fraction of opaque texels.
     [[nodiscard]] TextureObject make_colour_array(std::vector<Texture> layers,
                                                   bool has_holes) const;
     [[nodiscard]] TextureObject make_normal_array(std::vector<Texture> layers) const;

@@ -28,7 +28,7 @@ public:
 private:
     Renderbuffer content_;
     Renderbuffer depth_;
-    Framebuffer drawn_; // of both
+    Framebuffer drawn_; // with content_ and depth_
 };
 
 } // namespace lsys::view

@@ -10,7 +10,8 @@ namespace lsys::view {
 
 namespace {
 
-constexpr std::uint64_t kMaxGrowth = std::uint64_t{1} << 20; // bytes of a layer
+// Max number of bytes by which a layer may be larger than its picture.
+constexpr std::uint64_t kMaxGrowth = std::uint64_t{1} << 20;
 
 bool has_any(const MaterialPictures& pictures) {
     return pictures.colour != nullptr || pictures.normal_map != nullptr;

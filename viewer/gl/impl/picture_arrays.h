@@ -28,9 +28,9 @@ struct PictureArray {
     std::vector<MaterialPictures> layers;
     std::uint32_t width = 0; // texels of a layer
     std::uint32_t height = 0;
-    bool has_holes = false;
-    bool has_normal_maps = false;
-    TextureObject colours; // empty: there are only normal maps
+    bool has_holes = false;       // pictures may have transparent texels
+    bool has_normal_maps = false; // each layer has a normal map
+    TextureObject colours;        // empty: there are only normal maps
     TextureObject normal_maps;
 };
 
@@ -49,7 +49,7 @@ inline constexpr std::size_t kMaxPictureLayers = 16;
 class PictureArrays {
 public:
     struct Place {
-        std::size_t array = 0;
+        std::size_t array = 0; // index in arrays()
         std::uint32_t layer = 0;
     };
 

@@ -11,7 +11,7 @@ namespace {
 
 struct Attribute {
     GLuint location;
-    GLint floats;
+    GLint floats; // number of floats per vertex
 };
 constexpr std::array<Attribute, 4> kAttributes = {{{0, 3}, {1, 3}, {2, 2}, {3, 4}}};
 // Locations of uniforms, and binding points, in mesh.frag.glsl.

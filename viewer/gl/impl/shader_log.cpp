@@ -29,13 +29,14 @@ std::string name_files(std::string_view log, std::span<const std::string> files)
         if (digits != 0 && digits < row.size() && file < files.size()) {
             std::size_t line = 0;
             const std::string_view rest = row.substr(digits + 1);
-            const std::size_t more = number(rest, line);
+            const std::size_t line_digits = number(rest, line);
             if (row[digits] == ':') {
                 result += files[file];
                 row.remove_prefix(digits);
-            } else if (row[digits] == '(' && more != 0 && rest.substr(more).starts_with(") :")) {
+            } else if (row[digits] == '(' && line_digits != 0 &&
+                       rest.substr(line_digits).starts_with(") :")) {
                 result += fmt::format("{}:{}", files[file], line);
-                row.remove_prefix(digits + more + 3);
+                row.remove_prefix(digits + line_digits + 3);
             }
         }
         result += row;

@@ -31,7 +31,7 @@ public:
 
 private:
     Device* device_;
-    std::uint32_t texels_;
+    std::uint32_t texels_; // per side
     TextureObject depth_;
     TextureObject depths_; // made when first needed
     Framebuffer framebuffer_;

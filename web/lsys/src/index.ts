@@ -24,6 +24,7 @@ import { Instance, type RawAnswer } from './wasm.js';
 
 export * from './types.js';
 
+/** The reason of a failure; 'diagnosed': mistakes in the grammar. */
 export type Status = 'diagnosed' | 'failed' | 'limit' | 'out-of-memory' | 'cancelled';
 
 /** A call without a result: mistakes in the grammar, a limit, a lack of memory. */
@@ -234,11 +235,13 @@ export class Lsys {
     return meshOf(this.send(request, []));
   }
 
+  /** The members of a request that describe the grammar. */
   private grammar(options: GrammarOptions): Record<string, unknown> {
     const { name, dialect, system, definitions, settings, maxModules } = options;
     return { name: name ?? kName, dialect, system, definitions, settings, maxModules };
   }
 
+  /** The members of a request that describe the plant. */
   private plant(options: PlantOptions): Record<string, unknown> {
     const { generations, seed, height } = options;
     return { ...this.grammar(options), generations, seed, height };
@@ -251,6 +254,7 @@ export class Lsys {
     };
   }
 
+  /** Sends a request with the grammar and its files. `throws`: a failure is an LsysError. */
   private request(
     request: Record<string, unknown>,
     source: string | Uint8Array,

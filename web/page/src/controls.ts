@@ -25,10 +25,12 @@ export function stepOf(min: number, max: number): number {
   return power * ([1, 2, 5].find((digit) => digit * power >= rough) ?? 10);
 }
 
+/** A value as it is shown, and written into the text. */
 export function textOf(value: number): string {
   return String(Number(value.toPrecision(6)));
 }
 
+/** The sliders of parameters with bounds, and of numbers that a `#set` of the source states. */
 function rowsOf(grammar: Grammar, source: string): Row[] {
   const rows: Row[] = [];
   for (const each of grammar.constants) {

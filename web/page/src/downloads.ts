@@ -32,6 +32,7 @@ function packed(name: string, files: NamedFile[], type: string): { name: string;
   return fileOf(`${name}.zip`, zipSync(entries), 'application/zip');
 }
 
+/** A format that the library writes. `type`: its media type. */
 function exported(extension: string, about: string, type: string): Format {
   return {
     extension,

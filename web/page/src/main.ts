@@ -37,6 +37,7 @@ const messages = find('messages');
 const word = find<HTMLDetailsElement>('word');
 const play = find<HTMLButtonElement>('play');
 
+/** The library as a compiled module. */
 async function compile(): Promise<WebAssembly.Module> {
   const response = await fetch(wasmUrl);
   if (!response.ok) throw new Error(`the library cannot be read (${response.status})`);
@@ -103,6 +104,7 @@ function refresh(): void {
   void run();
 }
 
+/** Shows the newest text, and again until no newer one waits. */
 async function run(): Promise<void> {
   if (running) return;
   running = true;
@@ -123,9 +125,11 @@ async function run(): Promise<void> {
   running = false;
 }
 
+/** Shows messages, values and plant of `text`. Draws no plant if `isCurrent()` is false by then. */
 async function show(text: string, isCurrent: () => boolean): Promise<void> {
   grammar = await engine.call('compile', text, options());
   say(grammar.diagnostics);
+  // With ranges, probabilities or a stated seed the values include the seed.
   const isRandom = /[{~]|#set\s+seed/.test(text.replace(/#(param|define)[^;]*;|\/\/.*/g, ''));
   controls.show(grammar, text, isRandom);
   showGenerations(grammar.generations ?? 0);
@@ -139,6 +143,7 @@ async function show(text: string, isCurrent: () => boolean): Promise<void> {
   if (word.open) await showWord(text);
 }
 
+/** Shows 1,000 plants on a square whose side suits their width. */
 async function showForest(text: string): Promise<void> {
   const one = await engine.call('skeleton', text, options());
   const [lowX, , lowZ] = one.plant.low;
@@ -268,6 +273,7 @@ generations.addEventListener('input', () => {
 
 play.addEventListener('click', () => (playing ? endGrowth(true) : void attempt(grow)));
 
+/** Plays the growth of the plant from the axiom to the last generation. */
 async function grow(): Promise<void> {
   const last = grammar?.generations ?? 0;
   if (last === 0 || !stage) return toast('A growth needs at least one generation.');
@@ -456,6 +462,7 @@ function toast(text: string): void {
 
 // --- the first plant
 
+/** The grammar of the link, else the draft, else the tree of start.lsys. */
 function firstProject(): { text: string; title: string; sample: string } {
   const shared = projectOf(location.hash);
   if (shared) return shared;

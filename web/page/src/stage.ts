@@ -151,6 +151,7 @@ export class Stage {
     this.draw();
   }
 
+  /** The view as a PNG. */
   picture(): Promise<Blob> {
     this.render();
     return new Promise((resolve, reject) =>
@@ -158,6 +159,7 @@ export class Stage {
     );
   }
 
+  /** Replaces what is shown, and adapts ground and lights. `fit`: as in showPlant(). */
   private replace(object: Object3D, fit: boolean): void {
     const old = this.shown;
     this.shown = object;
@@ -213,7 +215,7 @@ export class Stage {
     texture.colorSpace = NoColorSpace;
     texture.needsUpdate = true;
     if (picture.id) {
-      texture.userData.kept = true;
+      texture.userData.kept = true; // for later plants; dispose() leaves it
       this.textures.set(picture.id, texture);
     }
     return texture;
