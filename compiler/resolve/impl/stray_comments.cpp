@@ -142,6 +142,16 @@ public:
         return found;
     }
 
+    /// Whether the `//` at `at` stands between modules without blanks, in a file with `names letters`:
+    /// `F//A`. People write a blank before or after the `//` of a comment.
+    [[nodiscard]] bool is_within_modules(std::string_view text, std::size_t at, FileId file) const {
+        constexpr std::string_view kBlanks = " \t\r\n";
+        const bool touches_both = at > 0 && kBlanks.find(text[at - 1]) == std::string_view::npos &&
+                                  at + 2 < text.size() &&
+                                  kBlanks.find(text[at + 2]) == std::string_view::npos;
+        return is_letters(file) && touches_both;
+    }
+
     /// Whether the text after a `//` may be modules with a mistake among them: it has a name of
     /// several letters that occurs elsewhere in the file.
     [[nodiscard]] bool may_be_modules(std::string_view comment, FileId file) {
@@ -217,7 +227,8 @@ void check_stray_comments(Resolution& resolution,
         const std::string_view line = line_at(text, slashes.begin);
         const std::string rest =
             without_comments(line.substr(std::min<std::size_t>(2, line.size())));
-        if (search.is_comment(rest, slashes.file)) {
+        if (!search.is_within_modules(text, slashes.begin, slashes.file) &&
+            search.is_comment(rest, slashes.file)) {
             report_stray_comment(resolution.diagnostics, line, slashes,
                                  search.may_be_modules(rest, slashes.file));
         }
