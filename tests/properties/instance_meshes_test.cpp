@@ -327,7 +327,7 @@ TEST_CASE("the boxes of an instance are separate closed surfaces") {
         REQUIRE(test::topology_of(bark).unbalanced_edges == 0);
         if (bark.indices.size() != 0) {
             ++instances;
-            CHECK(test::volume_of(own) > 0.0);
+            CHECK(test::volume_of(bark) > 0.0);
         }
     }
     CHECK(instances > 0);
