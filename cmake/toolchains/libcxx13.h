@@ -64,8 +64,8 @@ constexpr bool any_of(Range&& range, Predicate predicate) {
     return std::any_of(std::begin(range), std::end(range), std::move(predicate));
 }
 
-template <typename Range, typename Less>
-constexpr void sort(Range&& range, Less less) {
+template <typename Range, typename Less = std::less<>>
+constexpr void sort(Range&& range, Less less = {}) {
     std::sort(std::begin(range), std::end(range), std::move(less));
 }
 
