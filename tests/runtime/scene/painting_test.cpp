@@ -5,6 +5,7 @@
 #include "runtime/scene/scene.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <string>
 #include <vector>
@@ -70,7 +71,31 @@ TEST_CASE("a painting in the middle of a file is replaced there") {
     CHECK(read(saved.value())->painting.erased == std::vector<std::uint32_t>{5});
 }
 
+TEST_CASE("a painting in one line is replaced by a table") {
+    const std::string before = "key = 7\npainted = { erased = [1, 2] }\n";
+    const std::string species = kScene.substr(kScene.find("[[species]]"));
+    const Result<std::string> saved = with_painting(before + species, {{}, {5}}, kSpecies);
+    REQUIRE(saved);
+    CHECK(saved.value().find("{ erased") == std::string::npos);
+    CHECK(read(saved.value())->painting.erased == std::vector<std::uint32_t>{5});
+}
+
+TEST_CASE("names of species may have control characters") {
+    for (const char* const name : {"a\x1F", "a\x7F", "a\x01"}) {
+        const std::string key = fmt::format("name = \"a\\u{:04X}\"\n", static_cast<int>(name[1]));
+        const std::string scene = "[[species]]\ngrammar = \"a.lsys\"\n" + key;
+        const Painting painting{{{0, 1.0F, 2.0F, 0.5F, 1.5F}}, {}};
+        const Result<std::string> saved =
+            with_painting(scene, painting, std::vector{std::string(name)});
+        REQUIRE(saved);
+        CHECK(read(saved.value())->painting == painting);
+    }
+}
+
 TEST_CASE("a file that cannot be saved is refused") {
+    // With the species in another order, the trees read back would be other ones.
+    const std::vector<std::string> exchanged{kSpecies[1], kSpecies[0]};
+    CHECK_FALSE(with_painting(kScene, some_painting(), exchanged));
     CHECK_FALSE(with_painting("[[species]\n", {}, kSpecies));
     CHECK_FALSE(with_painting("painted.erased = [1]\n" + kScene, {{}, {5}}, kSpecies));
 }
