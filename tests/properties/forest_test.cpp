@@ -352,3 +352,33 @@ TEST_CASE("a maximum per key and a tolerance limit the size of the cache") {
     }
     CHECK(segments_of(capped.cache, tree_of(5), 1).size() >= 1);
 }
+
+TEST_CASE("branches of different colours have different keys") {
+    const std::string grammar = "#w : '(2) B '(3) B; #p : B : * : [A] F; "
+                                "#q : A : ~ 0.5 : F A; #r : A : ~ 0.5 : F F A;";
+    CHECK(plant(grammar, 3, 0.5F, heroes(20)).cache.slots.size() == 3);
+}
+
+TEST_CASE("if the first value of a key is 0, the tolerance is absolute") {
+    const auto slots_of = [](const std::string& axiom) {
+        CacheOptions options = heroes(20);
+        options.tolerance = 0.5F;
+        const std::string rules = "#p : B(x) : * : [A(x)] F; #q : A(x) : ~ 0.5 : F(9 + x) A(x); "
+                                  "#r : A(x) : ~ 0.5 : F F(9 + x) A(x);";
+        return plant("#w : " + axiom + "; " + rules, 3, 0.5F, options).cache.slots.size();
+    };
+    CHECK(slots_of("B(0)") == 2);
+    CHECK(slots_of("B(0) B(5) B(50)") == 4);
+    CHECK(slots_of("B(0) B(0.1) B(-0.1)") == 2);
+}
+
+TEST_CASE("a hero over the limit on modules ends the cache") {
+    const Planted planted =
+        plant("#w : A; #p : A : ~ 0.5 : [F A] A; #q : A : ~ 0.5 : F A;", 3, 0.5F, heroes(1));
+    CacheOptions options = heroes(1);
+    options.generations = 3;
+    options.limits.max_modules = 3;
+    const CacheOutcome outcome = make_instance_cache(planted.system.bytecode, options);
+    CHECK_FALSE(outcome.ok());
+    CHECK(outcome.derivation_end.stop == Stop::Limit);
+}

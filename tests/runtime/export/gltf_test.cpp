@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Primitives, indices, materials and numbers of GLB and glTF, read back from the file.
 #include "runtime/export/export.h"
+#include "runtime/export/impl/gltf_data.h"
 #include "runtime/export/impl/gltf_primitives.h"
+#include "runtime/meshing/looks.h"
+#include "runtime/meshing/texture.h"
 #include "tests/support/meshes.h"
 
 #include <catch2/catch.hpp>
@@ -12,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <meshoptimizer.h>
 #include <string>
 #include <string_view>
@@ -415,4 +419,44 @@ TEST_CASE("a glTF names its buffer and pictures with escapes") {
     CHECK(whole.data.substr(0, text.size()) == text);
     CHECK(whole.data.find(pictures.value()[1].bytes) != std::string::npos);
     CHECK(write_gltf_buffer({}, {}, info, append).stop() == Stop::Failed);
+}
+
+TEST_CASE("data of every array begins at a multiple of four bytes") {
+    // Three indices of 16 bits take six bytes.
+    const Mesh mesh = coloured_triangles({glm::vec3(0.1F), glm::vec3(0.2F)});
+    for (const ExportCompression compression :
+         {ExportCompression::None, ExportCompression::Meshopt}) {
+        const File file = exported(mesh, compression);
+        REQUIRE(file.document["bufferViews"].size() >= 4);
+        for (const json& view : file.document["bufferViews"]) {
+            CHECK(view.value("byteOffset", 0U) % 4 == 0);
+            if (view.contains("extensions")) {
+                const json& packed = view["extensions"]["EXT_meshopt_compression"];
+                CHECK(packed.value("byteOffset", 0U) % 4 == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("normals and tangents have unit length, and tangents a sign") {
+    const glm::vec3 x(1.0F, 0.0F, 0.0F);
+    CHECK(is_unit(1.0004F * x));
+    CHECK_FALSE(is_unit(1.01F * x));
+    CHECK(valid_normal(1.01F * x) == x);
+    CHECK(unit_normal(glm::vec3(0.0F)) == glm::vec3(0.0F, 1.0F, 0.0F));
+    CHECK(unit_tangent({0.0F, 0.0F, 2.0F, -0.5F}) == glm::vec4(0.0F, 0.0F, 1.0F, -1.0F));
+    CHECK(unit_tangent({0.0F, 0.0F, 0.0F, 0.0F}) == glm::vec4(x, 1.0F));
+    CHECK(valid_tangent({1.0F, 0.0F, 0.0F, -0.5F}) == glm::vec4(x, -1.0F));
+    CHECK(valid_tangent({1.0004F, 0.0F, 0.0F, -1.0F}) == glm::vec4(1.0004F, 0.0F, 0.0F, -1.0F));
+}
+
+TEST_CASE("a part has colours of vertices if they differ from its material and it has no picture") {
+    Mesh mesh = triangles(1);
+    mesh.colours.assign(3, 2);
+    mesh.materials[0].colour = glm::vec4(plain_colour(nullptr, 2), 1.0F);
+    CHECK_FALSE(has_vertex_colours(mesh, mesh.parts[0]));
+    mesh.colours[2] = 3;
+    CHECK(has_vertex_colours(mesh, mesh.parts[0]));
+    mesh.materials[0].picture = std::make_shared<const Texture>();
+    CHECK_FALSE(has_vertex_colours(mesh, mesh.parts[0]));
 }

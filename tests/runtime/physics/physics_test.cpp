@@ -173,6 +173,42 @@ TEST_CASE("a rod in wind comes to rest at the closed form, downwind") {
     }
 }
 
+TEST_CASE("leaves and polygons of any size catch the wind with half of their area") {
+    // A rod whose end has the area of its base; without a mass the sheets have no other effect.
+    Skeleton plant;
+    Segment tapered = rod(2.0F, 0.05F, 3.0F, 1.0F);
+    tapered.tip_radius = 0.02F;
+    add_segment(plant, kNoSegment, leaning(0.0F), tapered);
+    PhysicsOptions options;
+    options.gravity = 0.0F;
+    options.wind.velocity = {6.0F, 0.0F, 0.0F};
+    options.surface_mass = 0.0F;
+    options.threads = 1;
+    const auto has_lean = [&](double sheets) {
+        PlantPhysics physics(plant, options);
+        REQUIRE(physics.settle(1e-9, 1000));
+        Skeleton bent;
+        physics.pose(bent);
+        const double pressure = 0.5 * 1.1 * 1.225 * 36.0;
+        const double centre = 0.5 * 0.0057 / 0.0039; // of a truncated cone, l / 4 times a fraction
+        const double expected = root(0.0, kPi / 2.0, [&](double a) {
+            const double area = 0.14 * std::cos(a) + kPi * 0.0025 * std::sin(a) + 0.5 * sheets;
+            return 3.0 * a - pressure * area * centre * std::cos(a);
+        });
+        CHECK(lean_of(bent.segments[0]) == Approx(expected).margin(2e-6));
+    };
+    has_lean(0.0);
+    PlacedObject leaf;
+    leaf.kind = TurtleOperation::Leaf;
+    leaf.size = -0.5F;
+    leaf.parent = 0;
+    plant.objects.push_back(leaf);
+    has_lean(0.25);
+    plant.corners = {{0.0F, 2.0F, 0.0F}, {0.6F, 2.0F, 0.0F}, {0.0F, 2.4F, 0.0F}};
+    plant.polygons.push_back({.first_corner = 0, .corner_count = 3, .parent = 0});
+    has_lean(0.25 + 0.12);
+}
+
 TEST_CASE("a free rod swings with the period of a compound pendulum") {
     Skeleton plant;
     add_segment(plant, kNoSegment, leaning(static_cast<float>(kPi - 0.05)),

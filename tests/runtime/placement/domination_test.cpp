@@ -314,3 +314,21 @@ TEST_CASE("a forest that would get too large stops unchanged") {
     options.years = 2;
     CHECK_FALSE(place_trees(options, ground()));
 }
+
+TEST_CASE("plants without neighbours have the size of their age up to the end of their life") {
+    PlacementOptions options = stand(200, 20'000.0);
+    SpeciesGrowth& growth = options.species[0].growth;
+    growth.lifespan = 250;
+    growth.seeds = 0.0F;
+    growth.vigour_spread = 0.0F;
+    growth.max_radius = 100.0F; // still growing at the end
+    std::map<std::uint32_t, float> scales;
+    for (const Tree& tree : grown(options, 0).trees()) {
+        scales[tree.number] = tree.scale;
+    }
+    const LargeVector<Tree> trees = grown(options, 297).trees();
+    REQUIRE(trees.size() > 1); // life ends after 200 to 300 years
+    for (const Tree& tree : trees) {
+        CHECK(tree.scale == scales.at(tree.number));
+    }
+}

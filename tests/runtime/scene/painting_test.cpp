@@ -70,7 +70,29 @@ TEST_CASE("a painting in the middle of a file is replaced there") {
     CHECK(read(saved.value())->painting.erased == std::vector<std::uint32_t>{5});
 }
 
+TEST_CASE("a painting in one line is replaced by a table") {
+    const std::string before = "key = 7\npainted = { erased = [1, 2] }\n";
+    const std::string species = kScene.substr(kScene.find("[[species]]"));
+    const Result<std::string> saved = with_painting(before + species, {{}, {5}}, kSpecies);
+    REQUIRE(saved);
+    CHECK(saved.value().find("{ erased") == std::string::npos);
+    CHECK(read(saved.value())->painting.erased == std::vector<std::uint32_t>{5});
+}
+
+TEST_CASE("a delete character in the name of a species is saved as an escape") {
+    const std::string scene = "[[species]]\ngrammar = \"a.lsys\"\nname = \"a\\u007F\"\n";
+    const Painting painting{{{0, 1.0F, 2.0F, 0.5F, 1.5F}}, {}};
+    const Result<std::string> saved =
+        with_painting(scene, painting, std::vector{std::string("a\x7F")});
+    REQUIRE(saved);
+    CHECK(saved.value().find("[\"a\\u007F\", 1") != std::string::npos);
+    CHECK(read(saved.value())->painting == painting);
+}
+
 TEST_CASE("a file that cannot be saved is refused") {
+    // With the species in another order, the trees read back would be other ones.
+    const std::vector<std::string> exchanged{kSpecies[1], kSpecies[0]};
+    CHECK_FALSE(with_painting(kScene, some_painting(), exchanged));
     CHECK_FALSE(with_painting("[[species]\n", {}, kSpecies));
     CHECK_FALSE(with_painting("painted.erased = [1]\n" + kScene, {{}, {5}}, kSpecies));
 }

@@ -155,6 +155,8 @@ TEST_CASE("length, width, spring and mass of a segment are its parameters") {
     CHECK(s[2].mass == 9.0F);
     CHECK(s[3].base_radius == 0.5F);
     CHECK(s[3].tip_radius == 0.25F);
+    // Without a width of the tip, a segment is as wide at its tip as at its base.
+    CHECK(draw("!(0.5)T(3,1)").skeleton.segments[0].tip_radius == 0.5F);
     CHECK(s[3].spring == Approx(9e9 * 3.14159265 / 64.0 * std::pow(0.75, 4) / 3.0));
     // A negative length draws backwards from the turtle's position.
     CHECK(s[4].length == 2.0F);
@@ -172,6 +174,8 @@ TEST_CASE("objects advance by their length") {
     CHECK(objects[3].position.y == 6.0F);
     CHECK(objects[4].position.y == 6.0F); // a disk has no length
     CHECK(objects[3].kind == TurtleOperation::Disk);
+    CHECK(draw("F F").skeleton.segments[1].linked);
+    CHECK_FALSE(draw("F L(1)F").skeleton.segments[1].linked);
 }
 
 TEST_CASE("vertices of a polygon are its dots, or without dots the ends of its steps") {
@@ -185,6 +189,12 @@ TEST_CASE("vertices of a polygon are its dots, or without dots the ends of its s
     REQUIRE(nested.skeleton.polygons.size() == 2);
     CHECK(nested.skeleton.polygons[0].corner_count == 3);
     CHECK(nested.skeleton.polygons[1].corner_count == 4);
+}
+
+TEST_CASE("a polygon has the colour of its end") {
+    const Drawing drawing = draw("'(2){.f(1).-(90)'(3)f(1).}'(4)");
+    REQUIRE(drawing.skeleton.polygons.size() == 1);
+    CHECK(drawing.skeleton.polygons[0].colour == 3);
 }
 
 TEST_CASE("polygons open and close along the word, apart from branches") {
@@ -224,6 +234,13 @@ TEST_CASE("modules that cannot be drawn are counted, with the first place") {
     const Drawing endless = draw("F(3e38)F(3e38)F");
     CHECK(endless.status == Stop::Diagnosed);
     CHECK(endless.fault(TurtleFaultKind::NotFinite).position == 1);
+    const Drawing wide = draw("R(3e38)F(1e10)"); // the width is a part of the length
+    CHECK(wide.fault(TurtleFaultKind::NotFinite).count == 0);
+    Bytecode relative = BytecodeBuilder().axiom("R(3e38)F(1e10)").build();
+    relative.settings.traits.width_is_relative = true;
+    const Drawing too_wide = draw(std::move(relative), 0);
+    CHECK(too_wide.status == Stop::Diagnosed);
+    CHECK(too_wide.fault(TurtleFaultKind::NotFinite).position == 1);
 }
 
 TEST_CASE("a cut drops the rest of its branch") {
@@ -267,6 +284,14 @@ TEST_CASE("too little memory for a plant is an outcome") {
     TurtleOptions options;
     options.max_bytes = 100'000;
     const Bytecode bytecode = BytecodeBuilder().axiom("A").production("p : A : * : F A A").build();
+    CHECK(draw(bytecode, 14, options).status == Stop::Limit);
+}
+
+TEST_CASE("open branches count as memory of a plant") {
+    TurtleOptions options;
+    options.max_bytes = 100'000;
+    const Bytecode bytecode = BytecodeBuilder().axiom("A").production("p : A : * : [ A A").build();
+    CHECK(draw(bytecode, 4, options).status == std::nullopt);
     CHECK(draw(bytecode, 14, options).status == Stop::Limit);
 }
 
