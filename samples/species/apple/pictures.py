@@ -72,7 +72,7 @@ def truss(card, middle, size):
                PINK if draw.random() < 0.25 else WHITE, STAMENS, draw.uniform(0.8, 1), slant, draw)
 
 
-# Each two spurs, seen from their tips.
+# blossom.png and leaves.png: two spurs side by side in each picture, seen from their tips.
 card = Card(512, 256)
 for x in (-0.5, 0.5):
     rosette(card, (x, 0.5))
