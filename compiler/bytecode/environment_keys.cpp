@@ -61,7 +61,8 @@ constexpr EnvironmentKey other_key(std::string_view word,
                                    std::string_view meaning) {
     return {word, kinds, 0, form, -kLargest, kLargest, false, wanted, meaning};
 }
-// The same key with another range of its numbers, or required by all kinds that have it.
+// Copies of `key`: with numbers above 0, with numbers from `min` to `max`, and required by all kinds
+// of environments that have it.
 constexpr EnvironmentKey above_0(EnvironmentKey key, float max = kLargest) {
     key.min = 0.0F;
     key.max = max;

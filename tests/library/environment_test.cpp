@@ -134,7 +134,7 @@ TEST_CASE("an exception of a function ends the call") {
 
 namespace {
 
-/// What answer_height() answers, and the status that it returns.
+/// The numbers with which answer_height() answers, and the status that it returns.
 struct HeightAnswer {
     std::vector<double> numbers;
     int status = 0;

@@ -142,14 +142,13 @@ public:
         return found;
     }
 
-    /// Whether the `//` at `at` stands between modules without blanks, in a file with `names letters`:
-    /// `F//A`. People write a blank before or after the `//` of a comment.
+    /// Whether the `//` at `at` stands between modules without blanks, as in `F//A`, in a file whose
+    /// letters are modules. People write a blank before or after the `//` of a comment.
     [[nodiscard]] bool is_within_modules(std::string_view text, std::size_t at, FileId file) const {
-        constexpr std::string_view kBlanks = " \t\r\n";
-        const bool touches_both = at > 0 && kBlanks.find(text[at - 1]) == std::string_view::npos &&
-                                  at + 2 < text.size() &&
-                                  kBlanks.find(text[at + 2]) == std::string_view::npos;
-        return is_letters(file) && touches_both;
+        const auto is_module = [&](std::size_t place) {
+            return place < text.size() && kWhitespace.find(text[place]) == kWhitespace.npos;
+        };
+        return is_letters(file) && at > 0 && is_module(at - 1) && is_module(at + 2);
     }
 
     /// Whether the text after a `//` may be modules with a mistake among them: it has a name of

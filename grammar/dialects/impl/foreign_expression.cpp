@@ -45,7 +45,7 @@ Level level_of(const ForeignNode& node) {
 Level left_level(Level level) {
     return level == Equal || level == Compare ? Sum : level == Power ? Single : level;
 }
-/// The same for the right operand.
+/// The loosest right operand that needs no parentheses.
 Level right_level(Level level) {
     return level == Equal || level == Compare ? Sum
            : level == Power                   ? Power
