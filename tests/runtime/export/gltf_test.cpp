@@ -422,8 +422,7 @@ TEST_CASE("a glTF names its buffer and pictures with escapes") {
 }
 
 TEST_CASE("data of every array begins at a multiple of four bytes") {
-    // Three indices of 16 bits take six bytes.
-    const Mesh mesh = coloured_triangles({glm::vec3(0.1F), glm::vec3(0.2F)});
+    const Mesh mesh = test::plant_mesh(); // compressed arrays have any number of bytes
     for (const ExportCompression compression :
          {ExportCompression::None, ExportCompression::Meshopt}) {
         const File file = exported(mesh, compression);

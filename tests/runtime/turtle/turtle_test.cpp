@@ -28,18 +28,33 @@ struct Drawing {
 };
 
 /// Gives each symbol whose name is in the table its operation: names of the profile `lsys`, and L,
-/// S, D, T and R for operations that `lsys` has no name for.
+/// S, D, T, R, H and J for operations that `lsys` has no name for.
 void give_operations(Bytecode& bytecode) {
     using enum TurtleOperation;
-    const std::vector<std::pair<std::string, TurtleOperation>> known{
-        {"F", Forward},         {"f", Move},         {"+", YawRight},
-        {"-", YawLeft},         {"&", PitchDown},    {"^", PitchUp},
-        {"\\", RollLeft},       {"/", RollRight},    {"|", TurnAround},
-        {"!", SetWidth},        {"'", SetColour},    {"[", Save},
-        {"]", Restore},         {"{", PolygonBegin}, {".", PolygonVertex},
-        {"}", PolygonEnd},      {"%", Cut},          {"L", Leaf},
-        {"S", Sphere},          {"D", Disk},         {"T", TaperedForward},
-        {"R", SetRelativeWidth}};
+    const std::vector<std::pair<std::string, TurtleOperation>> known{{"F", Forward},
+                                                                     {"f", Move},
+                                                                     {"+", YawRight},
+                                                                     {"-", YawLeft},
+                                                                     {"&", PitchDown},
+                                                                     {"^", PitchUp},
+                                                                     {"\\", RollLeft},
+                                                                     {"/", RollRight},
+                                                                     {"|", TurnAround},
+                                                                     {"!", SetWidth},
+                                                                     {"'", SetColour},
+                                                                     {"[", Save},
+                                                                     {"]", Restore},
+                                                                     {"{", PolygonBegin},
+                                                                     {".", PolygonVertex},
+                                                                     {"}", PolygonEnd},
+                                                                     {"%", Cut},
+                                                                     {"L", Leaf},
+                                                                     {"S", Sphere},
+                                                                     {"D", Disk},
+                                                                     {"T", TaperedForward},
+                                                                     {"R", SetRelativeWidth},
+                                                                     {"H", SecondaryForward},
+                                                                     {"J", SecondaryMove}};
     for (BytecodeSymbol& symbol : bytecode.symbols) {
         for (const auto& [name, operation] : known) {
             if (symbol.name == name) {
@@ -189,6 +204,15 @@ TEST_CASE("vertices of a polygon are its dots, or without dots the ends of its s
     REQUIRE(nested.skeleton.polygons.size() == 2);
     CHECK(nested.skeleton.polygons[0].corner_count == 3);
     CHECK(nested.skeleton.polygons[1].corner_count == 4);
+}
+
+TEST_CASE("turns by the angle of the settings keep the direction of the second heading") {
+    for (const char* const word : {"+ H", "- H", "+ + + - H"}) {
+        const glm::vec3 along = heading(draw(word).skeleton.segments[0].frame);
+        CHECK(glm::distance(along, glm::vec3(0.0F, 1.0F, 0.0F)) < 1e-6F);
+    }
+    CHECK(draw("F H F").skeleton.segments[2].linked);
+    CHECK_FALSE(draw("F J F").skeleton.segments[1].linked);
 }
 
 TEST_CASE("a polygon has the colour of its end") {
