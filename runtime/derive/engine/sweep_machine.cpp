@@ -24,11 +24,12 @@ bool is_valid_draw(Opcode opcode, float x, float y) {
                                    : check_distribution(opcode, x, y) == DistributionFault::None;
 }
 
-/// `takes_first ? first : second` without a jump.
-float select(bool takes_first, float first, float second) {
-    const std::uint32_t mask = takes_first ? ~std::uint32_t{0} : 0;
-    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(first) & mask) |
-                                (std::bit_cast<std::uint32_t>(second) & ~mask));
+/// `condition != 0 ? first : second` without a jump: both zeros are 0 without their sign bit.
+float select(float condition, float first, float second) {
+    const std::uint32_t is_second = std::bit_cast<std::uint32_t>(condition) << 1 == 0 ? 1 : 0;
+    const std::uint32_t mask = is_second - 1; // all bits set for the first
+    const auto other = std::bit_cast<std::uint32_t>(second);
+    return std::bit_cast<float>(((std::bit_cast<std::uint32_t>(first) ^ other) & mask) ^ other);
 }
 
 float operand(Bases bases, SweepOperand at) {
@@ -151,8 +152,7 @@ float end_step(const Operation* /*at*/, float result, Bases /*bases*/, SweepMach
     return result;
 }
 float choose_step(const Operation* at, float result, Bases bases, SweepMachine& machine) {
-    return next(at, select(result != 0.0F, operand(bases, at->x), operand(bases, at->y)), bases,
-                machine);
+    return next(at, select(result, operand(bases, at->x), operand(bases, at->y)), bases, machine);
 }
 float mix_step(const Operation* at, float result, Bases bases, SweepMachine& machine) {
     return next(at, arithmetic::mix(operand(bases, at->x), operand(bases, at->y), result), bases,

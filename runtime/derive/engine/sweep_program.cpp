@@ -90,6 +90,7 @@ void SweepProgram::add_candidate(const Bytecode& bytecode,
     if (production.condition != kNone) {
         candidate.condition = compiler.condition(production.condition);
     }
+    candidate.is_certain = production.condition == kNone && !production.stochastic;
     if (production.weight_code != kNone) {
         candidate.weight_code = compiler.condition(production.weight_code);
     }

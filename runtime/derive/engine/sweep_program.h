@@ -28,11 +28,13 @@ struct SweepItem {
     std::uint32_t base = 0; // of the module's parameters, in SweepMachine
 };
 
-struct SweepCandidate {
+/// Its size is that of a cache line.
+struct alignas(64) SweepCandidate {
     /// The context: none, one module, or else `context`.
     enum class Context : std::uint8_t { None, Module, Items };
     Context kind = Context::None;
     bool is_stochastic = false;
+    bool is_certain = false;         // matches without a condition, and is not chosen at random
     SweepItem module;                // for Context::Module
     TableRange context;              // of SweepProgram::items()
     std::uint32_t condition = kNone; // first operation, or kNone: always holds

@@ -94,13 +94,13 @@ private:
         bool ok = true;
         for (; ok && place.index < end; ++place.index) {
             const SweepProgram::Row& row = rows_[codes_[place.index]];
-            if (row.role == ContextRole::Open) {
-                neighbours_.enter_at_begin();
-            } else if (row.role == ContextRole::Close) {
-                neighbours_.leave_at_end();
-            } else {
+            if (row.role < ContextRole::Open) {
                 ok = pass(row, parameters_ + place.parameter);
                 place.parameter += ok ? row.stored : 0;
+            } else if (row.role == ContextRole::Open) {
+                neighbours_.enter_at_begin();
+            } else {
+                neighbours_.leave_at_end();
             }
         }
         place.index -= ok ? 0 : 1; // back to the module with the fault
@@ -115,13 +115,13 @@ private:
         while (ok && place.index > end) {
             --place.index;
             const SweepProgram::Row& row = rows_[codes_[place.index]];
-            if (row.role == ContextRole::Close) {
-                neighbours_.enter_at_end();
-            } else if (row.role == ContextRole::Open) {
-                neighbours_.leave_at_begin();
-            } else {
+            if (row.role < ContextRole::Open) {
                 place.parameter -= row.stored;
                 ok = pass(row, parameters_ + place.parameter);
+            } else if (row.role == ContextRole::Close) {
+                neighbours_.enter_at_end();
+            } else {
+                neighbours_.leave_at_begin();
             }
         }
         at = place;
@@ -150,8 +150,14 @@ private:
         const SweepCandidate* const first = candidates_ + row.candidates.first;
         const SweepCandidate* const end = first + row.candidates.count;
         for (const SweepCandidate* each = first; each != end; ++each) {
-            bool holds = matches_context(*each);
-            if (holds && !condition(*each, holds)) {
+            if (!matches_context(*each)) {
+                continue;
+            }
+            if (each->is_certain) {
+                return write(*each, own);
+            }
+            bool holds = true;
+            if (!condition(*each, holds)) {
                 return false;
             }
             if (holds) {
