@@ -103,7 +103,7 @@ void SweepProgram::add_candidate(const Bytecode& bytecode,
     candidates_.push_back(candidate);
 }
 
-// As SweepRun::choose_among(): the order of the sums decides their rounding.
+// As SweepVisitor::choose_among(): the order of the sums decides their rounding.
 void SweepProgram::add_outcomes(std::uint32_t first, std::uint32_t end) {
     if (!candidates_[first].is_stochastic) {
         return;
