@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Measures environments of kinds Shadow and Sky, and compares Shadow with a hand-written program for
 // the same cloud (tests/bench/limits.h), in one run on one machine. Values are medians in
-// milliseconds. Compares the answers to `?P` with the turtle alone. The argument, shadow, sky or
-// positions, leaves out the others. Asserts nothing about time.
+// milliseconds. Compares the answers to `?P` with the turtle alone, and measures sweeps. The
+// argument, shadow, sky, positions or sweep, leaves out the others; a second one leaves out sweeps
+// without this text in their name. Asserts nothing about time.
 #include "runtime/base/workers.h"
 #include "runtime/derive/derive.h"
 #include "runtime/environment/environment.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <random>
@@ -163,6 +165,98 @@ void measure_positions() {
                drawn.segments.size(), answered, turtle_alone, answered / turtle_alone);
 }
 
+/// A sweep of a word without further rewriting.
+struct SweepRow {
+    const char* name;
+    const char* word;   // the statements that make the word
+    const char* sweeps; // productions of `#down` or `#up`
+};
+
+/// A chain of 2^20 modules, and a plant of 2^17 forks whose segments have one or two parameters.
+constexpr const char* kSweptChain = "#w : B; #p : B : step() < 20 : B B; #q : B : * : A(1);";
+constexpr const char* kSweptPlant = "#w : B; #p : B : step() < 17 : F(1) [ + B ] [ - B ];"
+                                    "#q : B : * : L(1);";
+constexpr std::uint32_t kGrown = 21; // generations after which nothing is rewritten
+
+constexpr SweepRow kSweepRows[] = {
+    {"chain, sum", kSweptChain, "#down d : A(x) > A(y) : * : A(y+1);"},
+    {"chain, sum, up", kSweptChain, "#up d : A(y) < A(x) : * : A(y+1);"},
+    {"chain, sums of products", kSweptChain, "#down d : A(x) > A(y) : * : A(0.5*x+0.5*y);"},
+    {"chain, condition", kSweptChain,
+     "#down d : A(x) > A(y) : y < 9 : A(y+1); #down e : A(x) : * : A(0);"},
+    {"chain, if", kSweptChain, "#down d : A(x) > A(y) : * : A(if(y < 9, y+1, x));"},
+    {"chain, local values", kSweptChain,
+     "#down d : A(x) > A(y) : * : let m = x+y, h = m*0.25 : A(m-h);"},
+    {"chain, random range", kSweptChain, "#down d : A(x) > A(y) : * : A(0.5*y+{0.5, 1});"},
+    {"chain, random choice", kSweptChain,
+     "#down d : A(x) > A(y) : ~ 0.5 : A(y+1); #down e : A(x) > A(y) : ~ 0.5 : A(x);"},
+    {"chain, choice by weights", kSweptChain,
+     "#set weights any; #down d : A(x) > A(y) : x < 5 ~ y : A(y+1);"
+     "#down e : A(x) > A(y) : * ~ x : A(1);"},
+    {"chain, all of these", kSweptChain,
+     "#down d : A(x) > A(y) : if(x < 9, 1, 0) : let r = {0.5, 1}, m = max(x, y) :"
+     " A(if(m < 9, m*0.5+r, r));"},
+    {"chain, no context", kSweptChain, "#down d : A(x) : * : A(if(x < 9, x+{0.5, 1}, 1));"},
+    {"chain, two modules", kSweptChain, "#down d : A(x) > A(y) A(z) : * : A(0.5*y+0.5*z);"},
+    {"chain, two modules, up", kSweptChain, "#up d : A(z) A(y) < A(x) : * : A(0.5*y+0.5*z);"},
+    {"plant, sum of branches", kSweptPlant,
+     "#ignore : + -; #down d : F(x) > [F(y)][F(z)] : * : F(y+z);"
+     "#down e : F(x) > [L(y)][L(z)] : * : F(y+z);"},
+    {"plant, long branches", kSweptPlant,
+     "#down d : F(x) > [+F(y)][-F(z)] : * : F(y+z);"
+     "#down e : F(x) > [+L(y)][-L(z)] : * : F(y+z);"},
+    {"plant, grandchildren", kSweptPlant,
+     "#ignore : + -; #down d : F(x) > [F(y)[F(z)]][F(w)] : * : F(0.5*y+z+w);"},
+    {"plant, up with if and range", kSweptPlant,
+     "#ignore : + -; #up d : F(y) < F(x) : * : F(if(y < 9, y+{0.5, 1}, 1));"
+     "#up e : F(y) < L(x) : * : L(max(x, y));"},
+    {"plant, pipe model", kSweptPlant,
+     "#ignore : + -; #down d : F(x) > [F(y)][F(z)] : * : F(sqrt(y*y+z*z));"
+     "#down e : F(x) > [L(y)][L(z)] : * : F(sqrt(y*y+z*z));"},
+};
+
+/// Median processor time in ms. For work on one thread, as a sweep is: other programs disturb it
+/// less than milliseconds().
+double processor_milliseconds(const std::function<void()>& work) {
+    std::vector<double> times;
+    for (int i = 0; i < kRuns; ++i) {
+        const std::clock_t start = std::clock();
+        work();
+        times.push_back(1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    return median(times);
+}
+
+/// Prints the throughput of sweeps. A step of such a word copies it and sweeps it once.
+void measure_sweeps(std::string_view only) {
+    fmt::print("\nSweeps, copying of the word included. The hash of the parameters tells whether a "
+               "change keeps their bits.\n\n{:<30}{:>10}{:>14}  hash\n",
+               "", "modules", "M modules/s");
+    for (const SweepRow& row : kSweepRows) {
+        if (std::string_view(row.name).find(only) == std::string_view::npos) {
+            continue;
+        }
+        const Bytecode bytecode = bench::compile_text(std::string(row.word) + row.sweeps);
+        DeriveOptions options;
+        options.generations = kGrown + kRuns;
+        options.threads = 2;
+        Derivation derivation(bytecode, options);
+        if (derivation.start() || derivation.run_to(kGrown)) {
+            fail("a plant does not derive");
+        }
+        const double spent = processor_milliseconds([&] {
+            if (derivation.step()) {
+                fail("a sweep fails");
+            }
+        });
+        const Word& word = derivation.word();
+        const double modules = static_cast<double>(word.module_count());
+        fmt::print("{:<30}{:>10}{:>14.0f}  {:016x}\n", row.name, word.module_count(),
+                   modules / spent / 1000.0,
+                   bench::hash({word.parameters().begin(), word.parameters().end()}));
+    }
+}
+
 } // namespace
 
 int main(int argument_count, char** arguments) {
@@ -185,6 +279,9 @@ int main(int argument_count, char** arguments) {
     }
     if (is_wanted("positions")) {
         measure_positions();
+    }
+    if (is_wanted("sweep")) {
+        measure_sweeps(argument_count > 2 ? arguments[2] : "");
     }
     return 0;
 }

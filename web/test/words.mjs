@@ -3,7 +3,7 @@
 // the golden tests, messages with fixes of grammars with mistakes, files, and use in Node.js.
 // Usage: node words.mjs      LSC: the program to compare with (default build/release/lsc)
 import { createHash } from 'node:crypto';
-import { readdirSync, readFileSync, statSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync, statSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
 import { applyFix, diagnostics, derive, glb, load, LsysError, mesh, skeleton } from 'lsys';
 import { check, finish, part, root, runLsc } from './support.mjs';
@@ -15,19 +15,26 @@ function below(folder, extension) {
     .sort()
     .flatMap((name) => {
       const path = join(folder, name);
-      if (statSync(path).isDirectory()) return below(path, extension);
-      return name.endsWith(extension) ? [path] : [];
+      const status = statSync(path);
+      if (status.isDirectory()) return below(path, extension);
+      // A golden test has a link to a device without an end.
+      return name.endsWith(extension) && status.isFile() ? [path] : [];
     });
 }
 
-/** The files beside a grammar, if it names any. */
+/** The files beside a grammar, and those that it names elsewhere, if it names any. */
 function filesOf(path, text) {
-  if (!/#include|"[^"]+\.\w+"/.test(text)) return {};
+  const named = [...text.matchAll(/"([^"\n]+\.\w+)"/g)].map((match) => match[1]);
+  if (named.length === 0 && !text.includes('#include')) return {};
   const folder = dirname(path);
+  const beside = ['.lsys', '.obj', '.mtl', '.png', '.jpg', '.txt']
+    .flatMap((extension) => below(folder, extension))
+    .map((file) => relative(folder, file));
+  const elsewhere = named.filter(
+    (file) => file.startsWith('../') && existsSync(join(folder, file)),
+  );
   return Object.fromEntries(
-    ['.lsys', '.obj', '.mtl', '.png', '.jpg', '.txt']
-      .flatMap((extension) => below(folder, extension))
-      .map((file) => [relative(folder, file), readFileSync(file)]),
+    [...beside, ...elsewhere].map((file) => [file, readFileSync(join(folder, file))]),
   );
 }
 

@@ -14,6 +14,12 @@ namespace lsys::analysis {
 
 /// sum += value * times
 inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
+    // Most counts are small: two factors below 2^31, plus a sum below 2^63, fit 64 bits.
+    if (!sum.exceeds && !value.exceeds && (sum.value.high | value.value.high) == 0 &&
+        sum.value.low >> 63 == 0 && (value.value.low | times) >> 31 == 0) {
+        sum.value.low += value.value.low * times;
+        return;
+    }
     // A value of up to 60 bits times 64 bits, plus a sum below 2^126, fits 128 bits.
     constexpr int kRoom = 60;
     if (!sum.exceeds && !value.exceeds && value.value.high == 0 && value.value.low >> kRoom == 0 &&

@@ -19,7 +19,7 @@ namespace lsys {
 /// Index of a module that does not exist.
 inline constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
-/// The role of a code in a context search.
+/// The role of a code in a context search; brackets come last.
 enum class ContextRole : std::uint8_t { Module, Ignored, Open, Close };
 [[nodiscard]] ContextRole context_role(const BytecodeSymbol& symbol);
 

@@ -3,10 +3,8 @@
 // one pass over the word (docs/language.md section 13; fast information transfer: Karwowski and
 // Prusinkiewicz 2003). `#down` visits the modules from right to left, so that the right context of
 // a module has the parameters that this sweep gave it; `#up` visits from left to right and reads
-// left contexts. Most productions run as a SweepProgram, which needs only the neighbours that the
-// sweep has visited just before. The others are chosen and evaluated as in rewriting, with the
-// neighbours that ContextTables find. A sweep runs on one thread, because each module may depend on
-// the one visited before.
+// left contexts. SweepProgram has the productions, SweepNeighbours the contexts. A sweep runs on
+// one thread, because each module may depend on the one visited before.
 #pragma once
 
 #include "runtime/base/limits.h"
@@ -21,10 +19,6 @@
 #include <vector>
 
 namespace lsys {
-
-/// Number of the first draw in `#down` sweeps (docs/language.md section 6).
-inline constexpr std::uint64_t kFirstDownDraw = (std::uint64_t{1} << 32) + (std::uint64_t{1} << 30);
-inline constexpr std::uint64_t kFirstUpDraw = kFirstDownDraw + (std::uint64_t{1} << 29);
 
 /// Productions of Stage::Down or Stage::Up, ready to sweep words.
 class Sweep {
@@ -41,18 +35,13 @@ public:
     run(Word& word, std::uint32_t age, const DeriveOptions& options, std::uint64_t other_bytes);
 
     [[nodiscard]] Stage stage() const { return stage_; }
-    [[nodiscard]] std::uint64_t first_draw() const {
-        return stage_ == Stage::Down ? kFirstDownDraw : kFirstUpDraw;
-    }
+    [[nodiscard]] std::uint64_t first_draw() const { return first_sweep_draw(stage_); }
     [[nodiscard]] const RuntimeError& error() const { return error_; }
     [[nodiscard]] const LimitReport& limit() const { return limit_; }
     [[nodiscard]] std::uint64_t held_bytes() const;
 
 private:
-    template <typename C>
-    class Run; // one pass over a word with codes of type C
-
-    /// Prepares contexts_ for the word, unless the memory would exceed the limit; sets limit_.
+    /// Prepares contexts_ for find_fault(), unless the memory would exceed the limit; sets limit_.
     [[nodiscard]] std::optional<Stop>
     make_tables(const Word& word, const Limits& limits, std::uint64_t other_bytes);
     /// run() for codes of type C.

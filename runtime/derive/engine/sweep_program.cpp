@@ -1,133 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/derive/engine/sweep_program.h"
 
-#include "compiler/bytecode/interpret.h"
-
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 namespace lsys {
 
-namespace {
-
-constexpr std::uint32_t kStepConstant = 0;
-constexpr std::uint32_t kStepsConstant = 1;
-constexpr std::uint32_t kFirstGlobal = 2;
-
-/// The operations of a chain; empty if the value cannot be computed by a chain.
-using Chain = std::vector<SweepOperation>;
-
-/// Longer chains are left to the stack machine.
-constexpr std::size_t kMaxChain = 32;
-
-/// Number of slots that a chain uses.
-std::uint32_t slot_count(const Chain& chain) {
-    std::uint32_t count = 0;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-        if (chain[i].opcode == Opcode::Formal) {
-            count = std::max(count, chain[i].slot + 1);
-        }
-    }
-    return count;
-}
-
-} // namespace
-
-/// The Domain of interpret() whose values are chains.
-class SweepProgram::Compiler : public UnknownDomain<Chain> {
-public:
-    Compiler(const Bytecode& bytecode,
-             const BytecodeProduction& production,
-             std::vector<float>& constants)
-        : bytecode_(bytecode), constants_(constants) {
-        add_module(bytecode.patterns[production.predecessor.first], kOwnBase);
-    }
-
-    /// Declares that formals of `item` are read from `base`.
-    void add_module(const PatternItem& item, std::uint32_t base) {
-        sources_.push_back(
-            {item.first_formal, bytecode_.symbol(item.symbol).parameter_count, base});
-    }
-
-    /// The chains of the values that the code at `first` takes; nothing if one is not a chain.
-    std::optional<std::vector<Chain>> run(std::uint32_t first) {
-        taken_.clear();
-        std::vector<Chain> stack(std::max<std::size_t>(bytecode_.stack_depth, 1));
-        std::vector<Chain> slots(std::max<std::size_t>(bytecode_.local_count, 1));
-        if (!interpret(bytecode_.instructions.data() + first, *this, stack.data(), slots.data())) {
-            return std::nullopt;
-        }
-        return std::move(taken_);
-    }
-
-    Chain literal(float value) {
-        constants_.push_back(value);
-        return constant(static_cast<std::uint32_t>(constants_.size() - 1));
-    }
-    [[nodiscard]] Chain formal(std::uint32_t index) const {
-        for (const Source& source : sources_) {
-            if (index >= source.first && index - source.first < source.count) {
-                return {{Opcode::Formal, source.base, index - source.first}};
-            }
-        }
-        return {};
-    }
-    static Chain global(std::uint32_t index) { return constant(kFirstGlobal + index); }
-    static Chain step() { return constant(kStepConstant); }
-    static Chain steps() { return constant(kStepsConstant); }
-    static Chain unary(Opcode opcode, Chain x) {
-        if (!x.empty()) {
-            // The operation ignores its operand.
-            x.push_back({opcode, kConstantBase, kStepConstant});
-        }
-        return x;
-    }
-    static Chain binary(Opcode opcode, Chain x, Chain y) {
-        const bool commutes = opcode == Opcode::Add || opcode == Opcode::Multiply;
-        if (y.size() != 1 && x.size() == 1 && commutes) {
-            std::swap(x, y);
-        }
-        if (x.empty() || y.empty() || x.size() + y.size() > kMaxChain) {
-            return {};
-        }
-        if (y.size() == 1) {
-            x.push_back({opcode, y[0].base, y[0].index});
-            return x;
-        }
-        // The value of y waits while that of x is computed.
-        const std::uint32_t slot = slot_count(x);
-        if (slot == kMaxSweepSlots) {
-            return {};
-        }
-        x.front().slot = slot;
-        y.insert(y.end(), x.begin(), x.end());
-        y.push_back({opcode, kSlotBase, slot});
-        return y;
-    }
-    bool take(Chain x, const std::uint32_t* /*at*/) {
-        taken_.push_back(std::move(x));
-        return !taken_.back().empty();
-    }
-
-private:
-    struct Source {
-        std::uint32_t first = 0; // index of the first formal
-        std::uint32_t count = 0; // number of formals
-        std::uint32_t base = 0;  // index in SweepBases
-    };
-
-    static Chain constant(std::uint32_t index) { return {{Opcode::Formal, kConstantBase, index}}; }
-
-    const Bytecode& bytecode_;
-    std::vector<float>& constants_;
-    std::vector<Source> sources_;
-    std::vector<Chain> taken_; // chains of the values taken so far
-};
-
 SweepProgram::SweepProgram(const Bytecode& bytecode, const PlanInputs& inputs, Stage stage)
-    : stage_(stage), constants_{0.0F, inputs.steps} {
-    constants_.insert(constants_.end(), inputs.globals, inputs.globals + bytecode.globals.size());
+    : stage_(stage) {
+    code_.constants = {0.0F, inputs.steps};
+    code_.constants.insert(code_.constants.end(), inputs.globals,
+                           inputs.globals + bytecode.globals.size());
     for (Code code = 0; code < bytecode.code_count(); ++code) {
         Row& row = rows_.emplace_back();
         row.symbol = bytecode.symbol_of(code);
@@ -145,103 +27,125 @@ SweepProgram::SweepProgram(const Bytecode& bytecode, const PlanInputs& inputs, S
         productions[static_cast<std::size_t>(symbol)].push_back(p);
     }
     for (std::size_t symbol = 0; symbol < productions.size(); ++symbol) {
-        if (productions[symbol].empty()) {
-            continue;
-        }
         Row& row = rows_[symbol]; // modules of a swept symbol are not folded
-        row.kind = Kind::Chains;
         row.candidates.first = static_cast<std::uint32_t>(candidates_.size());
         for (const std::uint32_t p : productions[symbol]) {
-            if (!add_candidate(bytecode, bytecode.productions[p])) {
-                row.kind = Kind::General;
-                has_general_ = true;
-                break;
-            }
-            ++row.candidates.count;
+            add_candidate(bytecode, bytecode.productions[p], row);
+        }
+        row.candidates.count =
+            static_cast<std::uint32_t>(candidates_.size()) - row.candidates.first;
+        for (std::uint32_t i = 0; i < row.candidates.count; ++i) {
+            add_outcomes(row.candidates.first + i, row.candidates.first + row.candidates.count);
         }
     }
 }
 
-bool SweepProgram::add_contexts(const Bytecode& bytecode,
-                                TableRange pattern,
-                                Compiler& compiler,
-                                SweepCandidate& candidate) {
-    candidate.branches.first = static_cast<std::uint32_t>(branches_.size());
-    const PatternItem* item = bytecode.patterns.data() + pattern.first;
-    const PatternItem* const end = item + pattern.count;
-    while (item != end) {
-        SweepContext context{kNoSymbol, kFirstContextBase + candidate.branches.count};
-        if (candidate.branches.count + 1 == kMaxSweepContexts) {
-            return false;
+TableRange SweepProgram::add_context(const Bytecode& bytecode,
+                                     const BytecodeProduction& production,
+                                     SweepCompiler& compiler) {
+    const TableRange pattern = stage_ == Stage::Down ? production.right : production.left;
+    TableRange range{static_cast<std::uint32_t>(items_.size()), pattern.count};
+    SweepReach reach;
+    std::uint32_t open = 0;
+    for (std::uint32_t i = 0; i < pattern.count; ++i) {
+        // From the module outwards: a left context is read from its end.
+        const std::uint32_t at = stage_ == Stage::Down ? i : pattern.count - 1 - i;
+        const PatternItem& item = bytecode.patterns[pattern.first + at];
+        const std::uint32_t base = kFirstContextBase + i;
+        items_.push_back({item.kind, item.symbol, base});
+        if (item.kind == PatternKind::Module) {
+            compiler.add_module(item, base);
         }
-        const bool is_branch = item->kind == PatternKind::Open;
-        item += is_branch ? 1 : 0;
-        if (item->kind == PatternKind::Module) {
-            compiler.add_module(*item, context.base);
-            context.symbol = item->symbol;
-            ++item;
-        }
-        if (!is_branch) {
-            candidate.has_axis = true;
-            candidate.axis = context;
-            return item == end;
-        }
-        branches_.push_back(context);
-        ++candidate.branches.count;
-        if (item->kind != PatternKind::Close) {
-            return false; // a longer axis, or a branch of the branch
-        }
-        ++item;
+        reach.items += item.kind == PatternKind::Close ? 0 : 1;
+        open += item.kind == PatternKind::Open ? 1 : 0;
+        open -= item.kind == PatternKind::Close ? 1 : 0;
+        reach.nesting = std::max(reach.nesting, open);
+        base_count_ = std::max(base_count_, base + 1);
     }
-    return true;
+    reach_.items = std::max(reach_.items, reach.items);
+    reach_.nesting = std::max(reach_.nesting, reach.nesting);
+    return range;
 }
 
-bool SweepProgram::add_candidate(const Bytecode& bytecode, const BytecodeProduction& production) {
+void SweepProgram::add_candidate(const Bytecode& bytecode,
+                                 const BytecodeProduction& production,
+                                 Row& row) {
+    const bool draws_choice =
+        production.stochastic && bytecode.settings.choice == ChoiceScope::Module;
+    const std::uint64_t first_draw = first_sweep_draw(stage_);
+    SweepCompiler compiler(bytecode, code_, first_draw + (draws_choice ? 1 : 0));
     SweepCandidate candidate;
-    const WordTemplate& successor = production.successor;
-    Compiler compiler(bytecode, production, constants_);
-    if (production.stochastic || successor.locals != kNone ||
-        successor.parameter_count > kMaxSweepParameters ||
-        !add_contexts(bytecode, stage_ == Stage::Down ? production.right : production.left,
-                      compiler, candidate)) {
-        return false;
+    candidate.rule = production.rule;
+    candidate.group = production.group;
+    candidate.is_stochastic = production.stochastic;
+    candidate.weight = production.weight;
+    compiler.add_module(bytecode.patterns[production.predecessor.first], kOwnBase);
+    candidate.context = add_context(bytecode, production, compiler);
+    if (candidate.context.count == 1) { // a single element is a module
+        candidate.kind = SweepCandidate::Context::Module;
+        candidate.module = items_[candidate.context.first];
+    } else if (candidate.context.count > 1) {
+        candidate.kind = SweepCandidate::Context::Items;
     }
-    const auto add_chain = [this](const Chain& chain) {
-        const TableRange range{static_cast<std::uint32_t>(operations_.size()),
-                               static_cast<std::uint32_t>(chain.size())};
-        operations_.insert(operations_.end(), chain.begin(), chain.end());
-        return range;
-    };
     if (production.condition != kNone) {
-        const std::optional<std::vector<Chain>> condition = compiler.run(production.condition);
-        if (!condition || condition->size() != 1) {
-            return false;
-        }
-        candidate.condition = add_chain(condition->front());
+        candidate.condition = compiler.condition(production.condition);
     }
-    candidate.chains.first = static_cast<std::uint32_t>(chains_.size());
-    if (successor.arguments != kNone) {
-        const std::optional<std::vector<Chain>> values = compiler.run(successor.arguments);
-        if (!values || values->size() != successor.parameter_count) {
-            return false;
-        }
-        for (const Chain& chain : *values) {
-            chains_.push_back(add_chain(chain));
-        }
+    candidate.is_certain = production.condition == kNone && !production.stochastic;
+    if (production.weight_code != kNone) {
+        candidate.weight_code = compiler.condition(production.weight_code);
     }
-    candidate.chains.count = successor.parameter_count;
+    candidate.successor = compiler.successor(production.successor);
+    candidate.value_count = production.successor.parameter_count;
+    if (draws_choice) {
+        choice_draw_ = code_.draw(first_draw);
+    }
+    row.draws = row.draws || draws_choice || compiler.draws();
     candidates_.push_back(candidate);
-    return true;
+}
+
+// As SweepVisitor::choose_among(): the order of the sums decides their rounding.
+void SweepProgram::add_outcomes(std::uint32_t first, std::uint32_t end) {
+    if (!candidates_[first].is_stochastic) {
+        return;
+    }
+    std::vector<std::uint32_t> chosen;
+    float sum = 0.0F;
+    for (std::uint32_t i = first; i < end; ++i) {
+        const SweepCandidate& each = candidates_[i];
+        if (each.group != candidates_[first].group || !each.is_stochastic) {
+            continue;
+        }
+        if ((i != first && each.condition != kNone) || each.weight_code != kNone) {
+            return;
+        }
+        sum += each.weight;
+        if (each.weight != 0.0F) {
+            chosen.push_back(i);
+        }
+    }
+    candidates_[first].outcomes = {static_cast<std::uint32_t>(outcomes_.size()),
+                                   static_cast<std::uint32_t>(chosen.size())};
+    float threshold = 0.0F;
+    for (const std::uint32_t i : chosen) {
+        threshold += candidates_[i].weight / sum;
+        outcomes_.push_back({i, threshold});
+    }
 }
 
 void SweepProgram::set_age(std::uint32_t age) {
-    constants_[kStepConstant] = static_cast<float>(age);
+    code_.constants[kStepConstant] = static_cast<float>(age);
+}
+
+void SweepProgram::prepare(SweepMachine& machine) const {
+    machine.reserve(base_count_, code_.slot_count, code_.value_count);
+    machine.set_base(kConstantBase, code_.constants.data());
 }
 
 std::uint64_t SweepProgram::held_bytes() const {
     return rows_.capacity() * sizeof(Row) + candidates_.capacity() * sizeof(SweepCandidate) +
-           branches_.capacity() * sizeof(SweepContext) + chains_.capacity() * sizeof(TableRange) +
-           operations_.capacity() * sizeof(SweepOperation) + constants_.capacity() * sizeof(float);
+           items_.capacity() * sizeof(SweepItem) + outcomes_.capacity() * sizeof(SweepOutcome) +
+           code_.operations.capacity() * sizeof(SweepOperation) +
+           code_.constants.capacity() * sizeof(float);
 }
 
 } // namespace lsys

@@ -1,77 +1,69 @@
 // SPDX-License-Identifier: MIT
-// SweepProgram: the productions of a sweep in the form that its loop runs. Productions whose
-// expressions are chains and whose context is one module and the branches before it need neither the
-// stack machine nor tables of neighbours: the loop keeps the neighbours while it passes them. A
-// chain is an expression of formals, constants and operators without a condition or a draw; a value
-// that an operator needs later, `c op d` in `(a op b) op (c op d)`, waits in a slot. Symbols with
-// other productions have Kind::General.
+// SweepProgram: the productions of a sweep in the form that its loop runs: contexts as items that
+// SweepNeighbours are compared with, expressions as operations of a SweepMachine.
 #pragma once
 
-#include "compiler/bytecode/arithmetic.h"
 #include "compiler/bytecode/bytecode.h"
 #include "runtime/derive/engine/contexts.h"
 #include "runtime/derive/engine/plan.h"
+#include "runtime/derive/engine/sweep_compiler.h"
+#include "runtime/derive/engine/sweep_neighbours.h"
 
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 namespace lsys {
 
-/// Max modules of a context, and max parameters of a module, that a SweepProgram handles.
-inline constexpr std::size_t kMaxSweepContexts = 4;
-inline constexpr std::size_t kMaxSweepParameters = 16;
-/// Max values of a chain that wait at the same time.
-inline constexpr std::uint32_t kMaxSweepSlots = 8;
+/// Number of the first draw in `#down` sweeps (docs/language.md section 6).
+inline constexpr std::uint64_t kFirstDownDraw = (std::uint64_t{1} << 32) + (std::uint64_t{1} << 30);
+inline constexpr std::uint64_t kFirstUpDraw = kFirstDownDraw + (std::uint64_t{1} << 29);
+[[nodiscard]] constexpr std::uint64_t first_sweep_draw(Stage stage) {
+    return stage == Stage::Down ? kFirstDownDraw : kFirstUpDraw;
+}
 
-/// Parameters of the modules that a production reads: the module's own, the constants, then the
-/// modules of the context in text order, then the slots of values that wait.
-using SweepBases = std::array<const float*, 3 + kMaxSweepContexts>;
-inline constexpr std::uint32_t kOwnBase = 0;
-inline constexpr std::uint32_t kConstantBase = 1;
-inline constexpr std::uint32_t kFirstContextBase = 2;
-inline constexpr std::uint32_t kSlotBase = kFirstContextBase + kMaxSweepContexts;
-
-/// One operation of a chain: value = opcode(value, bases[base][index]). Formal: the value so far
-/// moves to `slot`, and the operand becomes the value.
-struct SweepOperation {
-    Opcode opcode = Opcode::Formal;
-    std::uint32_t base = 0;
-    std::uint32_t index = 0;
-    std::uint32_t slot = 0;
-};
-
-/// A neighbour of a module: kNoSymbol if there is none.
-struct SweepNeighbour {
+/// An element of a context, from the swept module outwards.
+struct SweepItem {
+    PatternKind kind = PatternKind::Module;
     SymbolId symbol = kNoSymbol;
-    const float* parameters = nullptr;
+    std::uint32_t base = 0; // of the module's parameters, in SweepMachine
 };
 
-/// An element of a context: the first module of a branch, or the next module of the axis.
-struct SweepContext {
-    SymbolId symbol = kNoSymbol; // kNoSymbol: any branch
-    std::uint32_t base = 0;      // index in SweepBases
+/// Its size is that of a cache line.
+struct alignas(64) SweepCandidate {
+    /// The context: none, one module, or else `context`.
+    enum class Context : std::uint8_t { None, Module, Items };
+    Context kind = Context::None;
+    bool is_stochastic = false;
+    bool is_certain = false;         // matches without a condition, and is not chosen at random
+    SweepItem module;                // for Context::Module
+    TableRange context;              // of SweepProgram::items()
+    std::uint32_t condition = kNone; // first operation, or kNone: always holds
+    std::uint32_t successor = kNone;
+    std::uint32_t value_count = 0;
+    std::uint32_t rule = 0;
+    std::uint32_t group = 0; // candidates of a group have the same context
+    float weight = 0.0F;
+    std::uint32_t weight_code = kNone; // first operation of a weight that is not constant
+    /// The random choice that begins with this candidate, if its weights are constant and all later
+    /// candidates of the choice match; else empty. Of SweepProgram::outcomes().
+    TableRange outcomes;
 };
 
-struct SweepCandidate {
-    bool has_axis = false; // whether the context has a module of the axis
-    SweepContext axis;
-    TableRange branches;  // of SweepProgram::branch(), in text order, before the module of the axis
-    TableRange condition; // range of operations; count 0: the condition always holds
-    TableRange chains;    // one per parameter
+/// A candidate of a random choice: chosen by draws below `threshold` that chose none before.
+struct SweepOutcome {
+    std::uint32_t candidate = 0;
+    float threshold = 0.0F;
 };
 
 class SweepProgram {
 public:
-    enum class Kind : std::uint8_t { Unchanged, Chains, General };
     struct Row {
         SymbolId symbol = kNoSymbol;
         std::uint32_t stored = 0;        // parameters in the word
         std::uint32_t constants = kNone; // folded module: index in Bytecode::constants
-        TableRange candidates;           // Kind::Chains; in file order
+        TableRange candidates;           // in file order
         ContextRole role = ContextRole::Module;
-        Kind kind = Kind::Unchanged;
+        bool draws = false; // some candidate uses random draws
     };
 
     /// The productions of `stage`, Down or Up.
@@ -80,76 +72,39 @@ public:
     /// Sets the value of step().
     void set_age(std::uint32_t age);
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; } // by code
-    /// Whether some symbol has Kind::General.
-    [[nodiscard]] bool has_general() const { return has_general_; }
-    [[nodiscard]] const SweepCandidate& candidate(std::uint32_t index) const {
-        return candidates_[index];
+    [[nodiscard]] const SweepCandidate* candidates() const { return candidates_.data(); }
+    [[nodiscard]] const SweepItem* items() const { return items_.data(); }
+    [[nodiscard]] const SweepOutcome* outcomes() const { return outcomes_.data(); }
+    [[nodiscard]] const SweepOperation* operations() const { return code_.operations.data(); }
+    [[nodiscard]] SweepReach reach() const { return reach_; }
+    /// Draw 0 of a module, which chooses its production.
+    [[nodiscard]] SweepOperand choice_draw() const { return choice_draw_; }
+    /// The blocks of draws that a module needs; see SweepCode.
+    [[nodiscard]] const std::vector<std::uint32_t>& draw_blocks() const {
+        return code_.draw_blocks;
     }
-    [[nodiscard]] const SweepContext& branch(std::uint32_t index) const { return branches_[index]; }
-    [[nodiscard]] const float* constants() const { return constants_.data(); }
-    /// The value of a condition. `slots`: those of kSlotBase.
-    [[nodiscard]] float
-    condition_value(const SweepCandidate& candidate, const SweepBases& bases, float* slots) const {
-        return value(candidate.condition, bases, slots);
-    }
-    /// Value `index` of the successor.
-    [[nodiscard]] float parameter_value(const SweepCandidate& candidate,
-                                        std::uint32_t index,
-                                        const SweepBases& bases,
-                                        float* slots) const {
-        return value(chains_[candidate.chains.first + index], bases, slots);
-    }
+    /// Makes `machine` ready to run the operations.
+    void prepare(SweepMachine& machine) const;
     [[nodiscard]] std::uint64_t held_bytes() const;
 
 private:
-    class Compiler; // compiles expressions to chains
-
-    [[nodiscard]] float value(TableRange chain, const SweepBases& bases, float* slots) const {
-        const SweepOperation* operation = operations_.data() + chain.first;
-        const SweepOperation* const end = operation + chain.count;
-        float result = bases[operation->base][operation->index];
-        for (++operation; operation != end; ++operation) {
-            const float operand = bases[operation->base][operation->index];
-            switch (operation->opcode) {
-            case Opcode::Formal:
-                slots[operation->slot] = result;
-                result = operand;
-                break;
-            case Opcode::Add:
-                result = result + operand;
-                break;
-            case Opcode::Multiply:
-                result = result * operand;
-                break;
-            case Opcode::Max:
-                result = arithmetic::maximum(result, operand);
-                break;
-            default:
-                result = arithmetic::apply(operation->opcode, result, operand);
-                break;
-            }
-        }
-        return result;
-    }
-    /// Adds a production; returns false if it is not of the form that chains need.
-    [[nodiscard]] bool add_candidate(const Bytecode& bytecode,
-                                     const BytecodeProduction& production);
-    /// Adds the elements of the context, and tells `compiler` where their formals are. Returns
-    /// false if the context is anything but branches of at most one module each, followed by at
-    /// most one module.
-    [[nodiscard]] bool add_contexts(const Bytecode& bytecode,
-                                    TableRange pattern,
-                                    Compiler& compiler,
-                                    SweepCandidate& candidate);
+    void add_candidate(const Bytecode& bytecode, const BytecodeProduction& production, Row& row);
+    /// Sets the outcomes of candidate `first`; `end`: the end of the candidates of its symbol.
+    void add_outcomes(std::uint32_t first, std::uint32_t end);
+    /// Adds the elements of the context, and tells `compiler` where their formals are.
+    [[nodiscard]] TableRange add_context(const Bytecode& bytecode,
+                                         const BytecodeProduction& production,
+                                         SweepCompiler& compiler);
 
     Stage stage_;
     std::vector<Row> rows_;
     std::vector<SweepCandidate> candidates_;
-    std::vector<SweepContext> branches_;
-    std::vector<TableRange> chains_; // ranges of operations_
-    std::vector<SweepOperation> operations_;
-    std::vector<float> constants_; // step(), steps(), the globals, literals
-    bool has_general_ = false;
+    std::vector<SweepItem> items_;
+    std::vector<SweepOutcome> outcomes_;
+    SweepCode code_;
+    SweepReach reach_;
+    SweepOperand choice_draw_;
+    std::uint32_t base_count_ = kFirstContextBase;
 };
 
 } // namespace lsys

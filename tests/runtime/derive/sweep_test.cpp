@@ -103,6 +103,42 @@ TEST_CASE("conditions and choices of a sweep") {
     }
 }
 
+/// `text` `count` times.
+std::string repeated(const std::string& text, int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i) {
+        all += text;
+    }
+    return all;
+}
+
+TEST_CASE("contexts of several modules in words of any length") {
+    // Neighbours out of reach are dropped from time to time.
+    constexpr int kParts = 3000;
+    SECTION("branches in branches") {
+        const std::string part = "[F(2)[F(3)]F(4)]";
+        BytecodeBuilder builder = swept(repeated("F(1)" + part, kParts));
+        builder.fold = false;
+        builder.production(Stage::Down, "d : F(x) > [F(y)[F(z)]F(w)]F(v) : * : F(x+y+z+w+0*v)");
+        CHECK(test::derived(builder.build(), 0, 0) ==
+              repeated("F(10)" + part, kParts - 1) + "F(1)" + part);
+    }
+    SECTION("many branches at a place") {
+        const std::string branches = repeated("[F(1)F(2)]", kParts);
+        BytecodeBuilder builder = swept("F(0)" + branches + "F(5)");
+        builder.fold = false;
+        builder.production(Stage::Down, "d : F(x) > [F(a)F(b)][F(c)]F(y) : * : F(a+b+c+y)");
+        CHECK(test::derived(builder.build(), 0, 0) == "F(9)" + branches + "F(5)");
+    }
+    SECTION("the path to the base") {
+        BytecodeBuilder builder = swept(repeated("F(1)[[F(2)]F(3)]", kParts));
+        builder.fold = false;
+        builder.production(Stage::Up, "u : F(x) F(y) < F(z) : * : F(z+0*(x+y)+10)");
+        CHECK(test::derived(builder.build(), 0, 0) ==
+              "F(1)[[F(2)]F(3)]F(1)[[F(12)]F(13)]" + repeated("F(11)[[F(12)]F(13)]", kParts - 2));
+    }
+}
+
 TEST_CASE("step() of a sweep is the age of the word that is swept") {
     BytecodeBuilder builder = swept("A(9)");
     builder.production("p : A(x) : * : A(step()) ");
