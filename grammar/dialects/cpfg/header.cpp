@@ -23,7 +23,8 @@ bool is_letter(const std::string& name) {
 
 /// Commands of generalised cylinders.
 bool is_organ_command(std::string_view name) {
-    return name == "@Gs" || name == "@Gc" || name == "@Ge" || name == "@Gt" || name == "@#";
+    return name == "@Gs" || name == "@Gc" || name == "@Ge" || name == "@Gt" || name == "@Gr" ||
+           name == "@#";
 }
 
 /// Whether the turtle profile `cpfg` has the command, which begins with `@`.
@@ -252,6 +253,13 @@ void CpfgWriter::write_settings(std::string_view turtle) {
     };
     if (std::any_of(session_.productions.begin(), session_.productions.end(), several)) {
         out_.put("#set rewriting leftmost;\n", header_);
+    }
+    const auto has_contexts = [](const CpfgProduction& production) {
+        return production.stage == Stage::Rewrite &&
+               !(production.left.empty() && production.right.empty());
+    };
+    if (session_.ring && std::ranges::any_of(session_.productions, has_contexts)) {
+        out_.put("#set word_shape ring;\n", *session_.ring);
     }
     write_constants();
     if (!view_.angle.empty()) {

@@ -69,6 +69,8 @@ std::vector<ViewLine> lines_of(FileId file, std::string_view text) {
     return lines;
 }
 
+constexpr double kColours = 256.0;
+
 struct ViewTropism {
     std::string kind;
     std::array<double, 3> direction{};
@@ -229,8 +231,13 @@ private:
                 looks_.first_colour = static_cast<unsigned>(index);
             }
         } else if (line.key == "color increment") {
-            if (uses_.steps_colours && next_number(value).value_or(1.0) != 1.0) {
-                leave_out(line, "`;` and `,` without a number go to the next colour");
+            const double increment = std::trunc(next_number(value).value_or(1.0));
+            if (uses_.steps_colours && increment != 1.0) {
+                // The indices wrap, so -1 is 255.
+                const double turned =
+                    std::fmod(std::fmod(increment, kColours) + kColours, kColours);
+                looks_.statements.push_back(
+                    {"#set colour_increment " + rounded_text(turned) + ";\n", line.span});
             }
         } else if (line.key == "texture") {
             if (uses_.has_textures) {

@@ -1,6 +1,5 @@
 tropism direction: 0 0 0
 tropism: T: 0 up
-color increment: 5
 texture: F: bark.rgb
 initial scale: 2
 tsurface: t leaf.t 1
