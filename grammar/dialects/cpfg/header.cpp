@@ -30,7 +30,7 @@ bool is_organ_command(std::string_view name) {
 /// Whether the turtle profile `cpfg` has the command, which begins with `@`.
 bool is_drawn(std::string_view name) {
     return name == "@v" || name == "@O" || name == "@o" || name == "@c" || is_organ_command(name) ||
-           (name.size() == 3 && name.starts_with("@T") && name[2] != 'x');
+           (name.size() == 3 && name.starts_with("@T"));
 }
 
 /// Whether the module asks for the turtle's state or, `?E`, an environment process.
@@ -241,6 +241,9 @@ void CpfgWriter::read_view_file() {
                                    "`" + shown(files.colours_path) +
                                        "` holds neither 256 colours nor materials");
     }
+    materials_ +=
+        texture_statements(files.colours, uses, looks_.textures,
+                           looks_.first_colour.value_or(materials_.empty() ? 0 : kFirstCpfgColour));
     for (const CpfgLooks::Text& line : looks_.left_out) {
         expressions_.warn_left_out(line.span, "view " + line.text, line.text);
     }
