@@ -100,7 +100,10 @@ void CpfgWriter::check_module(CpfgModule& module) {
     if (name == "$") {
         session_.report_unsupported(module.span, "`$` ends a sub-L-system");
     } else if (name == "?") {
-        session_.report_unsupported(module.span, "a `?` before other characters than P H U L R E");
+        session_.report_unsupported(module.span,
+                                    module.has_arguments
+                                        ? "`?(id, scale)` begins a sub-L-system, which is not read"
+                                        : "a `?` before other characters than P H U L R E");
     } else if (name == "%" && module.has_arguments) {
         session_.report_unsupported(module.span,
                                     "`%` with a parameter keeps what it cuts off for an "
