@@ -209,7 +209,7 @@ constexpr std::array<std::span<const TurtleCommand>, kCountOf<TurtleProfile>> kP
 #include "compiler/bytecode/turtle_profiles.def"
 };
 
-constexpr std::array<TurtleObject, 15> kObjects{{
+constexpr std::array<TurtleObject, 16> kObjects{{
     {"BRANCH", Branch},
     {"SPHERE", Sphere},
     {"HETEROCYST", Heterocyst},
@@ -225,6 +225,7 @@ constexpr std::array<TurtleObject, 15> kObjects{{
     {"SURFACE_TANGENTS", SurfaceTangents},
     {"SURFACE_RADII", SurfaceRadii},
     {"CONTOUR", SetContour},
+    {"BEND", Bend},
 }};
 /// Whether #object has a name for an operation that places an object. True for operations that need
 /// no name: mesh files, objects that are commands of a profile, and operations without an object.
