@@ -657,7 +657,7 @@ private:
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning
     bool is_unread_reported_ = false; // an unread line has been reported
-    bool has_open_block_ = false; // a block of statements has no end
+    bool has_open_block_ = false;     // a block of statements has no end
     std::size_t statements_ = 0;      // number of statements so far
     std::size_t others_ = 0;          // number of lines that are no statements
 };
