@@ -35,13 +35,15 @@ namespace lsys {
 //  14  Contours, the operations of organs, SurfaceBegin to SetContour, and the trait of their
 //      tangents; tropisms whose strength the word changes, with their operations; unit and increment
 //      of widths; first colour; operations NarrowWidth, WidenWidth and PreviousColour.
-inline constexpr std::uint32_t kModuleFileVersion = 14;
+//  15  Increment of colours, scale of the plant, shape of the word, operations SurfaceRadii and
+//      SetTexture, traits organs_branch and colours_wrap.
+inline constexpr std::uint32_t kModuleFileVersion = 15;
 
 #define LSYS_VERSION_MATTERS                                                                       \
     "what a .lsb file can hold has changed: raise kModuleFileVersion, add a line to its history, " \
     "then set this number"
 static_assert(kCountOf<Opcode> == 54, LSYS_VERSION_MATTERS);
-static_assert(kCountOf<TurtleOperation> == 78, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<TurtleOperation> == 80, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TurtleProfile> == 13, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<RewritingMode> == 4, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<ChoiceScope> == 2, LSYS_VERSION_MATTERS);
@@ -51,14 +53,15 @@ static_assert(kCountOf<AtDepth> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<LoadRule> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TipShape> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<WidthUnit> == 2, LSYS_VERSION_MATTERS);
+static_assert(kCountOf<WordShape> == 2, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<TropismKind> == 4, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<SymbolKind> == 5, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<PatternKind> == 3, LSYS_VERSION_MATTERS);
 static_assert(kCountOf<Stage> == 5, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<Settings> == 37, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<Settings> == 40, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<StepTropism> == 5, LSYS_VERSION_MATTERS);
 static_assert(std::tuple_size_v<StepTropisms> == 11, LSYS_VERSION_MATTERS);
-static_assert(kFieldCount<TurtleTraits> == 13, LSYS_VERSION_MATTERS);
+static_assert(kFieldCount<TurtleTraits> == 15, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Pipe> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<Flare> == 3, LSYS_VERSION_MATTERS);
 static_assert(kFieldCount<BytecodeSymbol> == 7, LSYS_VERSION_MATTERS);

@@ -25,6 +25,7 @@ constexpr EnumNames<AtDepth> kAtDepths{"error", "stop"};
 constexpr EnumNames<LoadRule> kLoadRules{"carried", "own"};
 constexpr EnumNames<TipShape> kTipShapes{"flat", "round", "broken"};
 constexpr EnumNames<WidthUnit> kWidthUnits{"metres", "pixels"};
+constexpr EnumNames<WordShape> kWordShapes{"line", "ring"};
 constexpr EnumNames<TropismKind> kTropismKinds{"", "after", "before", "twist"};
 constexpr EnumNames<RandomSource> kRandomSources{"philox", "glibc"};
 constexpr EnumNames<TurtleProfile> kTurtleProfiles{
@@ -40,7 +41,7 @@ static_assert(!kRewritingModes.back().empty() && !kChoiceScopes.back().empty() &
                   !kWeightRules.back().empty() && !kAtDepths.back().empty() &&
                   !kRandomSources.back().empty() && !kLoadRules.back().empty() &&
                   !kTipShapes.back().empty() && !kWidthUnits.back().empty() &&
-                  !kTropismKinds.back().empty(),
+                  !kTropismKinds.back().empty() && !kWordShapes.back().empty(),
               "an enumerator has no name");
 
 } // namespace
@@ -68,6 +69,9 @@ std::string_view name_of(TipShape tips) {
 }
 std::string_view name_of(WidthUnit unit) {
     return name_in(kWidthUnits, unit);
+}
+std::string_view name_of(WordShape shape) {
+    return name_in(kWordShapes, shape);
 }
 std::string_view name_of(TropismKind kind) {
     return name_in(kTropismKinds, kind);

@@ -32,6 +32,9 @@ LSYS_COUNTED_ENUM(TipShape, Flat, Round, Broken);
 /// Unit of the widths of branches: metres, or pixels of a picture of the plant, which
 /// runtime/turtle/plant_size.h converts.
 LSYS_COUNTED_ENUM(WidthUnit, Metres, Pixels);
+
+/// Shape of the word for contexts. Ring: the last module is the left neighbour of the first one.
+LSYS_COUNTED_ENUM(WordShape, Line, Ring);
 /// The set of turtle commands by module name (docs/language.md section 7). The resolver reads the
 /// profile; later stages may only print its name.
 enum class TurtleProfile : std::uint8_t {
@@ -58,6 +61,8 @@ struct TurtleTraits {
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     bool box_segments = false;           // segments are rectangular boxes as wide as their width
     bool corners_are_ends = false;       // corners of polygons: each `.` and the end of each step
+    bool organs_branch = false;          // `[` continues an organ; F, ] and the end add no point
+    bool colours_wrap = false;           // the colour after 255 is 0
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // initial heading, in degrees to the left of +Y
     std::uint16_t first_colour = 0;      // initial colour, an index of the palette
@@ -156,6 +161,7 @@ constexpr void for_each_setting(Values& settings, Function function) {
 [[nodiscard]] std::string_view name_of(LoadRule load);
 [[nodiscard]] std::string_view name_of(TipShape tips);
 [[nodiscard]] std::string_view name_of(WidthUnit unit);
+[[nodiscard]] std::string_view name_of(WordShape shape);
 /// The word for the kind in `#set tropisms`; empty for None.
 [[nodiscard]] std::string_view name_of(TropismKind kind);
 [[nodiscard]] std::string_view name_of(TurtleProfile profile);

@@ -90,6 +90,15 @@ private:
         if (s.colour != 0) {
             out_ += fmt::format("  colour {}\n", s.colour);
         }
+        if (s.colour_increment != 1) {
+            out_ += fmt::format("  colour_increment {}\n", s.colour_increment);
+        }
+        if (s.scale != 1.0F) {
+            out_ += fmt::format("  scale {}\n", s.scale);
+        }
+        if (s.word_shape != WordShape::Line) {
+            out_ += fmt::format("  word_shape {}\n", name_of(s.word_shape));
+        }
         if (s.height != 0.0F) {
             out_ += fmt::format("  height {}\n", s.height);
         }

@@ -191,6 +191,8 @@ constexpr auto kCpfg =
                      {"@Gc", SurfacePoint, 1, "rings, not read"},
                      {"@Ge", SurfaceEnd, 1, "rings, not read"},
                      {"@Gt", SurfaceTangents},
+                     {"@Gr", SurfaceRadii},
+                     {"@Tx", SetTexture},
                      {"@#", SetContour, 1, "number of the contour"},
                      {"!", NarrowWidth},
                      {"#", WidenWidth},
@@ -207,7 +209,7 @@ constexpr std::array<std::span<const TurtleCommand>, kCountOf<TurtleProfile>> kP
 #include "compiler/bytecode/turtle_profiles.def"
 };
 
-constexpr std::array<TurtleObject, 14> kObjects{{
+constexpr std::array<TurtleObject, 16> kObjects{{
     {"BRANCH", Branch},
     {"SPHERE", Sphere},
     {"HETEROCYST", Heterocyst},
@@ -221,7 +223,9 @@ constexpr std::array<TurtleObject, 14> kObjects{{
     {"SURFACE_POINT", SurfacePoint},
     {"SURFACE_END", SurfaceEnd},
     {"SURFACE_TANGENTS", SurfaceTangents},
+    {"SURFACE_RADII", SurfaceRadii},
     {"CONTOUR", SetContour},
+    {"BEND", Bend},
 }};
 /// Whether #object has a name for an operation that places an object. True for operations that need
 /// no name: mesh files, objects that are commands of a profile, and operations without an object.

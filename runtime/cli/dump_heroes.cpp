@@ -218,12 +218,20 @@ private:
         if (key.place.second_heading != 0.0F) {
             put(" second heading {}", key.place.second_heading);
         }
+        if (key.place.texture != 0) {
+            put(" texture {}", key.place.texture);
+        }
         if (key.place.contour != kNoContour) {
             put(" contour {}", (*cache_.skeleton.contours)[key.place.contour].name);
         }
         const std::array tangents{key.place.tangent_before, key.place.tangent_after};
         if (tangents != std::array{1.0F, 1.0F}) {
             put(" tangents {} {}", tangents[0], tangents[1]);
+        }
+        const RadiusTangents& radii = key.place.radii;
+        if (radii.part_before != 0.0F || radii.radius_before != 0.0F) {
+            put(" radius tangents {} {} {} {}{}", radii.part_before, radii.radius_before,
+                radii.part_after, radii.radius_after, radii.per_chord ? " per chord" : "");
         }
         if (key.has_vertical) {
             put(" elevation {} roll {}", without_noise(key.elevation), without_noise(key.roll));

@@ -186,11 +186,17 @@ private:
             add(place.contour);
             add_real(branch.id, place.tangent_before);
             add_real(branch.id, place.tangent_after);
+            const RadiusTangents& radii = place.radii;
+            for (const float value : {radii.part_before, radii.radius_before, radii.part_after,
+                                      radii.radius_after, radii.per_chord ? 1.0F : 0.0F}) {
+                add_real(branch.id, value);
+            }
         }
         add(place.sides);
         add(place.colour);
-        if (is_own(place.colour)) {
+        if (is_own(place.colour) || place.texture != 0) {
             add(place.colour_index);
+            add(place.texture);
         }
         InstanceKey values;
         values.has_vertical = branch.id < options_.depends_on_vertical.size() &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/base/jpeg_texels.h"
 #include "runtime/base/png_samples.h"
+#include "runtime/base/sgi_texels.h"
 #include "runtime/meshing/texture.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace lsys {
 
 namespace {
 
-/// Name of the format that the first bytes identify; empty for PNG, JPEG and unknown formats.
+/// Name of the format that the first bytes identify; empty for PNG, JPEG, SGI and unknown formats.
 std::string_view other_format(std::string_view bytes) {
     struct Known {
         std::string_view begin;
@@ -37,11 +38,17 @@ float linear(std::uint8_t value) { // IEC 61966-2-1
 
 Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
     if (const std::string_view format = other_format(bytes); !format.empty()) {
-        return Error{fmt::format("it is a {}; only PNG and JPEG are read", format)};
+        return Error{fmt::format("it is a {}; only PNG, JPEG and SGI are read", format)};
     }
     Texture texture;
     if (is_jpeg(bytes)) {
         Result<JpegTexels> read = read_jpeg_texels(bytes, kMaxTexels, max_bytes);
+        if (!read) {
+            return read.error();
+        }
+        texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
+    } else if (is_sgi(bytes)) {
+        Result<SgiTexels> read = read_sgi_texels(bytes, kMaxTexels, max_bytes);
         if (!read) {
             return read.error();
         }

@@ -400,12 +400,18 @@ bool has_hits(const ForestSpecies& species) {
 }
 
 /// If the grammar has `#set height`, scales the heroes so that tree 0 of the last stage has this
-/// height at scale 1, and sets `scale` to the factor. Returns false if the plants are flat although
+/// height at scale 1, and sets `scale` to the factor; else scales them by `#set scale`. Returns false if the plants are flat although
 /// the grammar or `wants_height` requires a height.
 bool size_heroes(const Settings& settings,
                  bool wants_height,
                  ForestSpecies& species,
                  double& scale) {
+    if (settings.height == 0.0F && settings.scale != 1.0F) {
+        scale = static_cast<double>(settings.scale);
+        for (ForestStage& stage : species.stages) {
+            scale_cache(scale, material_of(settings), stage.cache);
+        }
+    }
     if (settings.height == 0.0F && !wants_height) {
         return true;
     }

@@ -79,6 +79,9 @@ size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skel
         apply_pixels(material, skeleton);
     }
     const float height = options.height.value_or(settings.height);
+    if (height == 0.0F && settings.scale != 1.0F) {
+        scale_plant(static_cast<double>(settings.scale), material, skeleton);
+    }
     if (height == 0.0F || scale_to_height(static_cast<double>(height), material, skeleton)) {
         return std::nullopt;
     }

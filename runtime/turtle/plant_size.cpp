@@ -229,7 +229,8 @@ double height_of(const Skeleton& skeleton) {
 
 void scale_plant(double factor, const StemMaterial& material, Skeleton& skeleton) {
     const auto scaled = [factor](float value) {
-        return static_cast<float>(to_double(value) * factor);
+        constexpr double kMax = std::numeric_limits<float>::max();
+        return static_cast<float>(std::clamp(to_double(value) * factor, -kMax, kMax));
     };
     const auto scaled_point = [&](const glm::vec3& at) {
         return glm::vec3(scaled(at.x), scaled(at.y), scaled(at.z));

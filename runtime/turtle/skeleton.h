@@ -68,14 +68,25 @@ struct PlacedObject {
 
 inline constexpr std::uint32_t kNoContour = 0xFFFFFFFFu;
 
+/// Tangents of the radius of an organ at a point, in a plane of the part of the way between two
+/// points and the radius in m. Both components 0: the radius changes evenly.
+struct RadiusTangents {
+    float part_before = 0.0F;
+    float radius_before = 0.0F;
+    float part_after = 0.0F;
+    float radius_after = 0.0F;
+    bool per_chord = false; // the radius components before the point are relative to the chord
+};
+
 /// A point of the axis of an organ (docs/language.md section 15), in the frame of its PlacedObject,
 /// at size 1.
 struct OrganPoint {
     glm::vec3 position{}; // m
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
-    float width = 0.0F;                 // m, by which the contour is scaled
-    float tangent_before = 1.0F;        // length of the tangent before the point, relative to the
-    float tangent_after = 1.0F;         // chord; and after it
+    float width = 0.0F;          // m, by which the contour is scaled
+    float tangent_before = 1.0F; // length of the tangent before the point, relative to the
+    float tangent_after = 1.0F;  // chord; and after it
+    RadiusTangents radii;
     std::uint32_t contour = kNoContour; // index in Skeleton::contours; kNoContour: a circle
     ItemColour colour = 0;
     std::uint8_t sides = 0;

@@ -73,10 +73,12 @@ struct TurtlePlace {
     std::uint32_t sides = 0;
     ItemColour colour = 0;
     std::uint32_t colour_index = 0;     // the last index that was set, even if `colour` is no index
+    std::uint32_t texture = 0;          // number of the texture
     std::uint32_t order = 0;            // open brackets
     std::uint32_t contour = kNoContour; // index in Bytecode::contours; kNoContour: a circle
     float tangent_before = 1.0F;        // tangents of the axes of organs, relative to the chord
     float tangent_after = 1.0F;
+    RadiusTangents radii; // of organs
 };
 
 /// Counts of the items drawn so far.

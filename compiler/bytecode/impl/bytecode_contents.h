@@ -49,8 +49,8 @@ struct IgnoringStream {
 template <typename Stream, typename Value>
 void describe_traits(Stream& stream, Value& traits) {
     auto& [leaf_moves, object_moves, object_has_step_scale, forward_has_width, width_is_relative,
-           l3d_compatible_surface, box_segments, corners_are_ends, taper, first_turn, first_colour,
-           leaf_droop, organ_tangent] = traits;
+           l3d_compatible_surface, box_segments, corners_are_ends, organs_branch, colours_wrap,
+           taper, first_turn, first_colour, leaf_droop, organ_tangent] = traits;
     stream.truth(leaf_moves);
     stream.truth(object_moves);
     stream.truth(object_has_step_scale);
@@ -59,6 +59,8 @@ void describe_traits(Stream& stream, Value& traits) {
     stream.truth(l3d_compatible_surface);
     stream.truth(box_segments);
     stream.truth(corners_are_ends);
+    stream.truth(organs_branch);
+    stream.truth(colours_wrap);
     stream.real(taper);
     stream.real(first_turn);
     stream.number(first_colour);

@@ -45,10 +45,10 @@ syn region lsysLet contained matchgroup=lsysStatement start="\<let\>\%(\_s*\h\w*
 
 " Other statements. They come after the productions, so they win where both match.
 syn region lsysValues matchgroup=lsysStatement start="#\%(contour\|curve\|define\|function\|include\|module\|n\|object\|param\)\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysString,lsysQuoted,lsysObject
-syn keyword lsysObject contained BRANCH CONE CONTOUR CUBE CYLINDER DISK FLOWER HETEROCYST LEAF SPHERE SURFACE_BEGIN SURFACE_END SURFACE_POINT SURFACE_TANGENTS
+syn keyword lsysObject contained BEND BRANCH CONE CONTOUR CUBE CYLINDER DISK FLOWER HETEROCYST LEAF SPHERE SURFACE_BEGIN SURFACE_END SURFACE_POINT SURFACE_RADII SURFACE_TANGENTS
 syn region lsysSet matchgroup=lsysStatement start="#set\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysSetting,lsysValue
-syn match lsysSetting contained "\%(#set\_s\+\)\@<=\%(angle\|angle_scale\|at_depth\|choice\|collar\|colour\|damping\|decompose_depth\|density\|elasticity\|flare\|height\|interpret_depth\|load\|names\|pipe\|random\|rewriting\|seed\|sides\|spring\|step\|step_scale\|tips\|tropism\|tropisms\|turtle\|weights\|width\|width_increment\|width_scale\|width_unit\)\>"
-syn keyword lsysValue contained abop any auto broken carey carried characters cpfg cyclic error flat fractint generation glibc houdini l3d l3d_program leftmost letters lplus lplus_program lsys metres module one own parallel philox pixels round sequential sidefx stop sys thesis words
+syn match lsysSetting contained "\%(#set\_s\+\)\@<=\%(angle\|angle_scale\|at_depth\|choice\|collar\|colour\|colour_increment\|damping\|decompose_depth\|density\|elasticity\|flare\|height\|interpret_depth\|load\|names\|pipe\|random\|rewriting\|scale\|seed\|sides\|spring\|step\|step_scale\|tips\|tropism\|tropisms\|turtle\|weights\|width\|width_increment\|width_scale\|width_unit\|word_shape\)\>"
+syn keyword lsysValue contained abop any auto broken carey carried characters cpfg cyclic error flat fractint generation glibc houdini l3d l3d_program leftmost letters line lplus lplus_program lsys metres module one own parallel philox pixels ring round sequential sidefx stop sys thesis words
 syn region lsysMaterial matchgroup=lsysStatement start="#material\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysMaterialKey,lsysString
 syn keyword lsysMaterialKey contained colour normal picture roughness translucency two_sided
 syn region lsysSense matchgroup=lsysStatement start="#sense\>\%(\_s*:\)\@!" matchgroup=lsysDelimiter end=";" contains=@lsysExpression,lsysSenseKey,lsysSenseKind,lsysString

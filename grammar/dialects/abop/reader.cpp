@@ -56,6 +56,10 @@ constexpr std::array kKeys{
 constexpr std::array<std::string_view, 9> kHeadings{
     "variables", "constants", "alphabet", "v", "rules", "rule", "p", "productions", "lsystem"};
 
+/// Labels of blocks of statements, in lower case.
+constexpr std::array<std::string_view, 5> kBlockLabels{"start", "starteach", "end", "endeach",
+                                                       "initialize"};
+
 /// The arrows of rules beside `->` with any number of dashes.
 constexpr std::array<std::string_view, 4> kArrows{"\u2192", "\u27F6", "\u21D2", "=>"};
 
@@ -148,6 +152,12 @@ public:
     AbopFile read() {
         const std::string_view text = file_.text;
         for (std::size_t at = 0; at < text.size();) {
+            if (const std::size_t end = end_of_statements(text, at); end != kNone) {
+                end_statement();
+                report_statements(at, end);
+                at = end;
+                continue;
+            }
             const std::size_t end = std::min(text.find('\n', at), text.size());
             read_line(span(at, end));
             at = end + 1;
@@ -155,6 +165,56 @@ public:
         end_statement();
         finish();
         return std::move(file_);
+    }
+
+    /// One past the line with the `}` of a block of C statements that begins at `at`: a line `{`, or
+    /// a label of cpfg and `{`. npos if there is no block.
+    std::size_t end_of_statements(std::string_view text, std::size_t at) {
+        const std::string_view line =
+            trimmed(text.substr(at, std::min(text.find('\n', at), text.size()) - at), kBlanks);
+        const std::size_t open = line.find('{');
+        if (open == kNone) {
+            return kNone;
+        }
+        const std::string label = lowered(trimmed(line.substr(0, open), " \t:"));
+        const bool is_labelled = std::ranges::find(kBlockLabels, label) != kBlockLabels.end();
+        if (has_open_block_ || (!is_labelled && !(label.empty() && line == "{"))) {
+            return kNone;
+        }
+        std::size_t depth = 0;
+        for (std::size_t i = text.find('{', at); i < text.size(); ++i) {
+            depth += text[i] == '{' ? 1U : 0U;
+            depth -= text[i] == '}' ? 1U : 0U;
+            if (depth == 0) {
+                return std::min(text.find('\n', i), text.size() - 1) + 1;
+            }
+        }
+        has_open_block_ = true; // the brace is reported as a line that is no rule
+        return kNone;
+    }
+
+    /// Reports the lines from `begin` to `end` as one mistake.
+    void report_statements(std::size_t begin, std::size_t end) {
+        Diagnostic* error = nullptr;
+        for (std::size_t at = begin; at < end;) {
+            const std::size_t line_end = std::min(file_.text.find('\n', at), end);
+            const SourceSpan line = span(at, line_end);
+            at = line_end + 1;
+            if (line.begin == line.end) {
+                continue;
+            }
+            if (error == nullptr) {
+                error = report(DiagnosticCode::ForeignFeature, line,
+                               "these lines are C, which lsc does not run");
+                if (error == nullptr) {
+                    return;
+                }
+                error->help.emplace_back("constants are `#define NAME value`; cpfg reads "
+                                         "statements: a text with a line `Lsystem: 1`");
+            } else {
+                error->labels.push_back({line, "and this one"});
+            }
+        }
     }
 
     [[nodiscard]] std::size_t statements() const { return statements_; }
@@ -467,6 +527,12 @@ private:
             return;
         }
         ++statements_;
+        if (const std::size_t open = words.substr(0, arrow.begin).find('{'); open != kNone) {
+            const std::size_t close = std::min(words.find('}', open), arrow.begin - 1);
+            report(DiagnosticCode::ForeignFeature, span(rule.begin + open, rule.begin + close + 1),
+                   "these statements are C, which lsc does not run");
+            return;
+        }
         AbopRule new_rule;
         new_rule.span = span(rule.begin, rule.begin + words.size());
         new_rule.arrow = span(rule.begin + arrow.begin, rule.begin + arrow.end);
@@ -596,6 +662,7 @@ private:
     std::vector<SourceSpan> bare_;    // lines of symbols before the first rule
     std::vector<SourceSpan> unread_;  // lines without meaning
     bool is_unread_reported_ = false; // an unread line has been reported
+    bool has_open_block_ = false;     // a block of statements has no end
     std::size_t statements_ = 0;      // number of statements so far
     std::size_t others_ = 0;          // number of lines that are no statements
 };

@@ -37,6 +37,7 @@ public:
         for (const CareyRule& rule : file.rules) {
             rules_.push_back({&rule, modules_of(rule.left), modules_of(rule.right)});
         }
+        index_rules();
         for (const CareySetting& setting : file.settings) {
             if (setting.key->name == "axiom") {
                 enqueue_all(modules_of(setting.value));
@@ -53,8 +54,8 @@ public:
         while (!pending_.empty()) {
             const PlacedModule module = pending_.back();
             pending_.pop_back();
-            for (std::size_t i = 0; i < rules_.size(); ++i) {
-                if (ends_in(rules_[i].left, module.form.first) && follow(rules_[i], module)) {
+            for (const std::size_t i : by_last_[module.form.first]) {
+                if (follow(rules_[i], module)) {
                     found.counts_by_rule[i].push_back(module.form.second);
                     found.has_counts = true;
                 }
@@ -80,42 +81,70 @@ private:
         return is_valid ? modules : std::vector<PlacedModule>();
     }
 
-    /// Whether the last symbol of `left` is `symbol` and no module of `left` has parameters.
-    static bool ends_in(const std::vector<PlacedModule>& left, char32_t symbol) {
-        return !left.empty() && left.back().form.first == symbol &&
-               std::ranges::all_of(
-                   left, [](const PlacedModule& module) { return module.form.second == 0; });
+    static bool has_parameters(const PlacedModule& module) { return module.form.second != 0; }
+
+    /// Without these indexes, many rules of one symbol would take quadratic time.
+    void index_rules() {
+        for (std::size_t i = 0; i < rules_.size(); ++i) {
+            const std::vector<PlacedModule>& left = rules_[i].left;
+            if (left.empty() || std::ranges::any_of(left, has_parameters)) {
+                continue;
+            }
+            by_last_[left.back().form.first].push_back(i);
+            if (takes_parameters(rules_[i])) { // follow() reports the others
+                std::u32string symbols;
+                for (const PlacedModule& module : left) {
+                    symbols += module.form.first;
+                }
+                by_left_[symbols].push_back(i);
+                left_sizes_.insert(left.size());
+            }
+        }
     }
 
     void enqueue(const PlacedModule& module) {
-        if (module.form.second != 0 && enqueued_.insert(module.form).second) {
+        if (has_parameters(module) && enqueued_.insert(module.form).second) {
             pending_.push_back(module);
         }
     }
 
     void enqueue_all(const std::vector<PlacedModule>& modules) {
         for (std::size_t i = 0; i < modules.size(); ++i) {
+            if (!has_parameters(modules[i])) {
+                continue;
+            }
             enqueue(modules[i]);
-            for (const RuleWithModules& rule : rules_) {
-                if (modules[i].form.second != 0 && matches(rule.left, modules, i)) {
-                    note(rule, modules[i]);
+            // Beyond the stored messages, one is counted per module.
+            if (context_.diagnostics.admits(DiagnosticCode::ParameterStays)) {
+                for (const std::size_t rule : matching_rules(modules, i)) {
+                    note(rules_[rule], modules[i]);
                 }
             }
         }
     }
 
-    /// Whether `left` matches the modules up to `last`, so that the parameters of `last` follow the
-    /// matched text.
-    static bool matches(const std::vector<PlacedModule>& left,
-                        const std::vector<PlacedModule>& modules,
-                        std::size_t last) {
-        if (!ends_in(left, modules[last].form.first) || left.size() > last + 1) {
-            return false;
+    /// Rules whose left side matches the modules up to `last`, so that the parameters of `last`
+    /// follow the matched text, which takes them.
+    [[nodiscard]] std::vector<std::size_t> matching_rules(const std::vector<PlacedModule>& modules,
+                                                          std::size_t last) const {
+        std::vector<std::size_t> found;
+        for (const std::size_t size : left_sizes_) {
+            if (size > last + 1) {
+                break;
+            }
+            std::u32string symbols;
+            bool is_plain = true;
+            for (std::size_t i = last + 1 - size; i <= last; ++i) {
+                symbols += modules[i].form.first;
+                is_plain = is_plain && (i == last || !has_parameters(modules[i]));
+            }
+            const auto rules = is_plain ? by_left_.find(symbols) : by_left_.end();
+            if (rules != by_left_.end()) {
+                found.insert(found.end(), rules->second.begin(), rules->second.end());
+            }
         }
-        const auto begin = modules.begin() + static_cast<std::ptrdiff_t>(last + 1 - left.size());
-        return std::equal(
-            left.begin(), left.end() - 1, begin,
-            [](const PlacedModule& a, const PlacedModule& b) { return a.form == b.form; });
+        std::sort(found.begin(), found.end());
+        return found;
     }
 
     /// Gives the parameters of a module to the last symbol of the rule's right side. Reports and
@@ -150,8 +179,8 @@ private:
 
     /// Adds the note [parameter-stays]: `rule` moves the parameters of `module` to another symbol.
     void note(const RuleWithModules& rule, const PlacedModule& module) {
-        if (!takes_parameters(rule)) {
-            return; // follow() reports the error
+        if (!context_.diagnostics.admits(DiagnosticCode::ParameterStays)) {
+            return;
         }
         const std::string_view whole = context_.sources.text(module.span);
         const std::string parameters(whole.substr(std::min(whole.find('('), whole.size())));
@@ -172,6 +201,9 @@ private:
     Diagnostics ignored_; // messages of quiet_, which CareyWriter reports
     ParseContext quiet_;  // context_ with messages in ignored_
     std::vector<RuleWithModules> rules_;
+    std::map<char32_t, std::vector<std::size_t>> by_last_; // rules by the last symbol on the left
+    std::map<std::u32string, std::vector<std::size_t>> by_left_; // rules that take parameters
+    std::set<std::size_t> left_sizes_;  // numbers of symbols of the keys of by_left_
     std::set<SymbolForm> enqueued_;     // symbols with parameters that have been in pending_
     std::vector<PlacedModule> pending_; // modules whose parameters have not been followed yet
 };

@@ -23,13 +23,14 @@ bool is_letter(const std::string& name) {
 
 /// Commands of generalised cylinders.
 bool is_organ_command(std::string_view name) {
-    return name == "@Gs" || name == "@Gc" || name == "@Ge" || name == "@Gt" || name == "@#";
+    return name == "@Gs" || name == "@Gc" || name == "@Ge" || name == "@Gt" || name == "@Gr" ||
+           name == "@#";
 }
 
 /// Whether the turtle profile `cpfg` has the command, which begins with `@`.
 bool is_drawn(std::string_view name) {
     return name == "@v" || name == "@O" || name == "@o" || name == "@c" || is_organ_command(name) ||
-           (name.size() == 3 && name.starts_with("@T") && name[2] != 'x');
+           (name.size() == 3 && name.starts_with("@T"));
 }
 
 /// Whether the module asks for the turtle's state or, `?E`, an environment process.
@@ -99,7 +100,10 @@ void CpfgWriter::check_module(CpfgModule& module) {
     if (name == "$") {
         session_.report_unsupported(module.span, "`$` ends a sub-L-system");
     } else if (name == "?") {
-        session_.report_unsupported(module.span, "a `?` before other characters than P H U L R E");
+        session_.report_unsupported(module.span,
+                                    module.has_arguments
+                                        ? "`?(id, scale)` begins a sub-L-system, which is not read"
+                                        : "a `?` before other characters than P H U L R E");
     } else if (name == "%" && module.has_arguments) {
         session_.report_unsupported(module.span,
                                     "`%` with a parameter keeps what it cuts off for an "
@@ -241,6 +245,9 @@ void CpfgWriter::read_view_file() {
                                    "`" + shown(files.colours_path) +
                                        "` holds neither 256 colours nor materials");
     }
+    materials_ +=
+        texture_statements(files.colours, uses, looks_.textures,
+                           looks_.first_colour.value_or(materials_.empty() ? 0 : kFirstCpfgColour));
     for (const CpfgLooks::Text& line : looks_.left_out) {
         expressions_.warn_left_out(line.span, "view " + line.text, line.text);
     }
@@ -253,6 +260,13 @@ void CpfgWriter::write_settings(std::string_view turtle) {
     };
     if (std::any_of(session_.productions.begin(), session_.productions.end(), several)) {
         out_.put("#set rewriting leftmost;\n", header_);
+    }
+    const auto has_contexts = [](const CpfgProduction& production) {
+        return production.stage == Stage::Rewrite &&
+               !(production.left.empty() && production.right.empty());
+    };
+    if (session_.ring && std::ranges::any_of(session_.productions, has_contexts)) {
+        out_.put("#set word_shape ring;\n", *session_.ring);
     }
     write_constants();
     if (!view_.angle.empty()) {

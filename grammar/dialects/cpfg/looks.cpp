@@ -69,6 +69,9 @@ std::vector<ViewLine> lines_of(FileId file, std::string_view text) {
     return lines;
 }
 
+constexpr double kColours = 256.0;
+constexpr double kMinScale = 1e-6;
+
 struct ViewTropism {
     std::string kind;
     std::array<double, 3> direction{};
@@ -230,20 +233,67 @@ private:
                 looks_.first_colour = static_cast<unsigned>(index);
             }
         } else if (line.key == "color increment") {
-            if (uses_.steps_colours && next_number(value).value_or(1.0) != 1.0) {
-                leave_out(line, "`;` and `,` without a number go to the next colour");
+            const double increment = std::trunc(next_number(value).value_or(1.0));
+            if (uses_.steps_colours && increment != 1.0) {
+                // The indices wrap, so -1 is 255.
+                const double turned =
+                    std::fmod(std::fmod(increment, kColours) + kColours, kColours);
+                looks_.statements.push_back(
+                    {"#set colour_increment " + rounded_text(turned) + ";\n", line.span});
             }
         } else if (line.key == "texture") {
-            if (uses_.has_textures) {
-                leave_out(line, "pictures in rgb files are not read, and branches have none");
-            }
+            read_texture(line);
         } else if (line.key == "initial scale") {
-            if (next_number(value).value_or(1.0) != 1.0) {
-                leave_out(line, "the scale of the turtle is 1; `#set height` scales a plant");
-            }
+            read_scale(line);
         } else if (line.key == "tsurface" || line.key == "line" || line.key == "blob") {
             leave_out(line, "it is not drawn");
         }
+    }
+
+    /// Reads `F: bark.rgb L: n H: n E: m R: 1 S`. Filters (L, H), the ratio of the sides on
+    /// branches (R) and whole surfaces (S) have no effect.
+    void read_texture(const ViewLine& line) {
+        if (uses_.textures.empty() && !uses_.has_any_texture) {
+            return;
+        }
+        constexpr std::string_view kBetween = " \t\r:,";
+        std::string_view rest = line.value;
+        const auto next_word = [&] {
+            rest.remove_prefix(std::min(rest.find_first_not_of(kBetween), rest.size()));
+            const std::string_view word = rest.substr(0, rest.find_first_of(kBetween));
+            rest.remove_prefix(word.size());
+            return word;
+        };
+        CpfgTexture texture;
+        for (std::string_view key = next_word(); !key.empty(); key = next_word()) {
+            const std::string_view value = key[0] == 'S' ? std::string_view() : next_word();
+            if (key[0] == 'F') {
+                texture.file = value;
+            } else if (key[0] == 'E') {
+                texture.replaces_colour = value.starts_with('d');
+            }
+        }
+        const std::string_view file = texture.file;
+        if (!file.ends_with(".rgb") && !file.ends_with(".png") && !file.ends_with(".jpg")) {
+            leave_out(line, "only rgb, png and jpg files are read");
+            texture.file.clear();
+        }
+        looks_.textures.push_back(std::move(texture));
+    }
+
+    /// The widths that the word sets are scaled with the plant, the initial one is not.
+    void read_scale(const ViewLine& line) {
+        const std::optional<double> scale = number_of(line);
+        if (!scale || *scale == 1.0 || *scale == 0.0) { // cpfg takes 0 as 1
+            return;
+        }
+        if (*scale < kMinScale || uses_.reads_places) {
+            leave_out(line, uses_.reads_places ? "`?P` reads places before a plant is scaled"
+                                               : "the scale of a plant is 0.000001 or more");
+            return;
+        }
+        scale_ = *scale;
+        looks_.statements.push_back({"#set scale " + rounded_text(*scale) + ";\n", line.span});
     }
 
     void write_tropisms(SourceSpan nowhere) {
@@ -280,8 +330,9 @@ private:
             looks_.statements.push_back({"#set width_unit pixels;\n", place});
         }
         if (width_ || is_pixel) {
+            const double width = std::max(width_.value_or(1.0), 0.0);
             looks_.statements.push_back(
-                {"#set width " + rounded_text(std::max(width_.value_or(1.0), 0.0)) + ";\n", place});
+                {"#set width " + rounded_text(is_pixel ? width : width / scale_) + ";\n", place});
         }
     }
 
@@ -290,6 +341,7 @@ private:
     ViewTropism after_;                     // the tropism of elasticity
     std::vector<ViewTropism> rows_;         // the other tropisms and torques
     std::optional<SourceSpan> place_;       // place of the last line about a tropism
+    double scale_ = 1.0;                    // `initial scale:`
     std::optional<double> width_;           // initial line width
     std::optional<bool> is_pixel_;          // widths are in pixels; unset: no line says it
     std::optional<SourceSpan> width_place_; // place of the last line about widths

@@ -20,9 +20,17 @@ struct CpfgUses {
     bool steps_colours = false;    // `;` or `,`
     bool has_elasticity = false;   // `_`
     bool changes_tropisms = false; // `@Ti`, `@Td` or `@Ts`
-    bool has_textures = false;     // `@Tx`
+    bool has_any_texture = false;  // `@Tx(n)` with a computed n
     bool has_any_colour = false;   // a computed colour, which may have any index
     std::set<unsigned> colours{};  // constant colours, 0 to 255
+    std::set<unsigned> textures{}; // constant n of `@Tx(n)`
+    bool reads_places = false;     // `?P`
+};
+
+/// `texture: F: bark.rgb E: m`.
+struct CpfgTexture {
+    std::string file;             // empty: its format is not read
+    bool replaces_colour = false; // decal; else it is multiplied by the colour
 };
 
 /// Settings of .lsys, each with its place, and messages about lines that have no effect here.
@@ -32,7 +40,8 @@ struct CpfgLooks {
         SourceSpan span;
     };
     std::vector<Text> statements;
-    std::vector<Text> left_out; // messages about lines that have no effect
+    std::vector<Text> left_out;        // messages about lines that have no effect
+    std::vector<CpfgTexture> textures; // `@Tx(1)` sets the first one
     /// Colour at the start of the word; nullopt: the view file sets none.
     std::optional<unsigned> first_colour;
 };

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <map>
 
 namespace lsys {
 
@@ -60,31 +60,67 @@ std::string material_text(std::string_view record) {
 constexpr std::size_t kColours = 256;
 constexpr std::size_t kMapRecord = 3;
 constexpr std::size_t kMaterialRecord = 15;
+constexpr std::size_t kMaxTextures = 255; // indices of materials are at most 65,535
 
-} // namespace
+bool is_used(unsigned index, const CpfgUses& uses, unsigned first_colour) {
+    return uses.has_any_colour || uses.steps_colours || index == first_colour ||
+           uses.colours.count(index) != 0;
+}
 
-std::string
-material_statements(std::string_view colours, const CpfgUses& uses, unsigned first_colour) {
+/// The appearances of the colours that the model uses, by index; empty if the file is neither a
+/// colour map nor materials.
+std::map<unsigned, std::string>
+appearances(std::string_view colours, const CpfgUses& uses, unsigned first_colour) {
     const bool is_map = colours.size() == kColours * kMapRecord;
+    std::map<unsigned, std::string> result;
     if (!is_map && (colours.empty() || colours.size() % kMaterialRecord != 0 ||
                     colours.size() > kColours * kMaterialRecord)) {
-        return {};
+        return result;
     }
     const std::size_t size = is_map ? kMapRecord : kMaterialRecord;
-    std::string text;
-    std::set<unsigned> written;
     for (std::size_t i = 0; (i + 1) * size <= colours.size(); ++i) {
         const std::string_view record = colours.substr(i * size, size);
         const unsigned index = is_map
                                    ? static_cast<unsigned>(i)
                                    : static_cast<unsigned>(static_cast<unsigned char>(record[0]));
-        const bool is_used = uses.has_any_colour || uses.steps_colours || index == first_colour ||
-                             uses.colours.count(index) != 0;
-        if (!is_used || !written.insert(index).second) {
+        if (is_used(index, uses, first_colour)) {
+            result.emplace(index, is_map ? colour_text(rgb_at(record, 0)) : material_text(record));
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+std::string
+material_statements(std::string_view colours, const CpfgUses& uses, unsigned first_colour) {
+    std::string text;
+    for (const auto& [index, appearance] : appearances(colours, uses, first_colour)) {
+        text += "#material " + std::to_string(index) + appearance + ";\n";
+    }
+    return text;
+}
+
+std::string texture_statements(std::string_view colours,
+                               const CpfgUses& uses,
+                               const std::vector<CpfgTexture>& textures,
+                               unsigned first_colour) {
+    const std::map<unsigned, std::string> known = appearances(colours, uses, first_colour);
+    std::string text;
+    for (unsigned n = 1; n <= std::min<std::size_t>(textures.size(), kMaxTextures); ++n) {
+        const CpfgTexture& texture = textures[n - 1];
+        if (texture.file.empty() || !(uses.has_any_texture || uses.textures.count(n) != 0)) {
             continue;
         }
-        text += "#material " + std::to_string(index) +
-                (is_map ? colour_text(rgb_at(record, 0)) : material_text(record)) + ";\n";
+        for (unsigned index = 0; index < kColours; ++index) {
+            if (!is_used(index, uses, first_colour)) {
+                continue;
+            }
+            const auto found = known.find(index);
+            text += "#material " + std::to_string(kColours * n + index) +
+                    (found == known.end() || texture.replaces_colour ? "" : found->second) +
+                    " picture \"" + texture.file + "\";\n";
+        }
     }
     return text;
 }

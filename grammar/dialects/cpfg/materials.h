@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lsys {
 
@@ -13,5 +14,12 @@ namespace lsys {
 /// colour map nor materials. `first_colour`: colour at the start of the word.
 [[nodiscard]] std::string
 material_statements(std::string_view colours, const CpfgUses& uses, unsigned first_colour);
+
+/// The `#material` statements of these colours with each texture that the model uses: colour i of
+/// texture n, from 1, has the index 256 n + i.
+[[nodiscard]] std::string texture_statements(std::string_view colours,
+                                             const CpfgUses& uses,
+                                             const std::vector<CpfgTexture>& textures,
+                                             unsigned first_colour);
 
 } // namespace lsys

@@ -16,24 +16,26 @@ CpfgUses CpfgWriter::find_uses() const {
     uses.steps_widths = is_any("#", false) || is_any("!", false);
     uses.steps_colours = is_any(";", false) || is_any(",", false);
     uses.has_elasticity = used_.count("_") != 0;
-    uses.has_textures = used_.count("@Tx") != 0;
+    uses.reads_places = used_.count("?P") != 0;
     for (const char* const name : {"@Ti", "@Td", "@Ts"}) {
         uses.changes_tropisms = uses.changes_tropisms || used_.count(name) != 0;
     }
     const auto visit = [&](const std::vector<CpfgModule>& list) {
         for (const CpfgModule& module : list) {
-            if ((module.name != ";" && module.name != ",") || module.arguments.empty()) {
+            const bool is_texture = module.name == "@Tx";
+            const bool is_colour = module.name == ";" || module.name == ",";
+            if (!(is_texture || is_colour) || module.arguments.empty()) {
                 continue;
             }
             const ForeignNode& index = expression(module.arguments[0]);
-            unsigned colour = 0;
+            unsigned number = 0;
             const auto [end, error] =
-                std::from_chars(index.text.data(), index.text.data() + index.text.size(), colour);
+                std::from_chars(index.text.data(), index.text.data() + index.text.size(), number);
             if (index.kind == ForeignKind::Number && error == std::errc() &&
                 end == index.text.data() + index.text.size()) {
-                uses.colours.insert(colour);
+                (is_texture ? uses.textures : uses.colours).insert(number);
             } else {
-                uses.has_any_colour = true;
+                (is_texture ? uses.has_any_texture : uses.has_any_colour) = true;
             }
         }
     };

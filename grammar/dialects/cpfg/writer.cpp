@@ -418,10 +418,9 @@ bool CpfgWriter::check_production(const CpfgProduction& production) {
         return false;
     }
     const bool contexts = !production.left.empty() || !production.right.empty();
-    if (session_.ring && production.stage == Stage::Rewrite &&
-        (contexts || production.predecessor.size() > 1)) {
-        session_.report_unsupported(*session_.ring, "contexts in a ring L-system, whose word has "
-                                                    "no ends");
+    if (session_.ring && production.stage == Stage::Rewrite && production.predecessor.size() > 1) {
+        session_.report_unsupported(*session_.ring, "predecessors of several modules in a ring "
+                                                    "L-system, whose word has no ends");
         session_.ring.reset(); // report the ring once
         return false;
     }

@@ -62,6 +62,7 @@ constexpr std::array kCommands{
     Command{'{', "{", "{"},
     Command{'}', "}", "}"},
     Command{'.', ".", "."},
+    Command{'t', "`bend`(0.2)", "`bend`#"},
     Command{'~', "+({-6, 6})^({-6, 6})/({-6, 6})", "+({-#, #})^({-#, #})/({-#, #})"},
 };
 /// Symbols that are commands only in the profile `houdini`.
@@ -125,6 +126,9 @@ public:
             }
         }
         write_drawings();
+        if (bend_) {
+            out_.put("#object `bend` BEND;\n", *bend_);
+        }
         for (const auto& [name, span] : idle_) {
             out_.put("#module " + name + ";\n", span);
         }
@@ -264,7 +268,10 @@ private:
     }
 
     /// Writes a command, whose parameter is `argument`, as modules of the turtle.
-    static std::string modules_of(const Command& command, std::string_view argument) {
+    [[nodiscard]] std::string modules_of(const Command& command, std::string_view argument) const {
+        if (argument.empty() && command.symbol == 't' && file_.trope) {
+            argument = text(*file_.trope);
+        }
         if (argument.empty()) {
             return std::string(command.bare);
         }
@@ -317,11 +324,12 @@ private:
             }
         }
         const Command* const command = find_command(module.character);
-        const bool is_rewritten = module.character < 0x100 &&
-                                  rewritten_.contains(static_cast<unsigned char>(module.character));
         if (command == nullptr) {
-            write_symbol(module, argument, is_rewritten);
+            write_symbol(module, argument);
             return;
+        }
+        if (command->symbol == 't' && !bend_) {
+            bend_ = module.span;
         }
         if (is_deferred(*command)) {
             drawn_.insert_or_assign(command->symbol, module.span);
@@ -336,17 +344,13 @@ private:
         out_.put(in_polygon && (symbol == "f" || symbol == "z") ? "." : "", module.span);
     }
 
-    void write_symbol(const LetterModule& module, std::string_view argument, bool is_rewritten) {
+    void write_symbol(const LetterModule& module, std::string_view argument) {
+        const bool is_rewritten = module.character < 0x100 &&
+                                  rewritten_.contains(static_cast<unsigned char>(module.character));
         const std::string name = name_of(module.character);
         out_.put(name, module.span);
         if (!argument.empty()) {
             out_.put("(" + std::string(argument) + ")", module.span);
-        }
-        if (module.character == 't' && !is_rewritten && !has_warned_) {
-            has_warned_ = true;
-            context_.diagnostics.add(DiagnosticCode::ForeignLoss, module.span,
-                                     "`t` does not bend the plant here; `#set tropism` of an "
-                                     "imported file bends all segments");
         }
         if (!is_rewritten) {
             idle_.emplace(name + (argument.empty() ? "" : "(x)"), module.span);
@@ -380,7 +384,7 @@ private:
     std::set<char> with_parameter_;                 // symbols that can have a parameter
     std::map<char, SourceSpan> drawn_;              // rewritten commands of several modules
     std::map<std::string, SourceSpan> idle_;        // symbols that do nothing
-    bool has_warned_ = false;                       // the warning about `t` has been reported
+    std::optional<SourceSpan> bend_;                // the first `t`
     bool has_stray_ = false;                        // a `(` without a symbol has been reported
 };
 

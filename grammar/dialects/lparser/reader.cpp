@@ -162,10 +162,12 @@ private:
             file_.axiom = span(value);
         } else if (keyword->name == "rule") {
             read_rule(value);
+        } else if (keyword->name == "trope") {
+            read_number(value, "amount of `t`", file_.trope);
         } else if (keyword->name == "color") {
             file_.colours.push_back(span(value));
         } else if (keyword->name == "mutation" || keyword->name == "min_thickness" ||
-                   keyword->name == "trope" || keyword->name == "rand") {
+                   keyword->name == "rand") {
             context_.diagnostics.add(DiagnosticCode::ForeignIgnored, span(line.substr(0, end)),
                                      "`" + std::string(keyword->name) + "` has no effect here");
         }

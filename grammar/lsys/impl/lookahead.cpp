@@ -22,14 +22,41 @@ constexpr std::array<std::string_view, 20> kSpellings{
     "consider", "decompose", "interpret", "down",   "up",       "w"};
 
 /// The keys of `#set`, which compiler/bytecode/settings.def defines.
-constexpr std::array<std::string_view, 32> kSettings{
-    "turtle",          "names",          "rewriting", "choice",   "weights",
-    "random",          "angle",          "step",      "width",    "sides",
-    "tropism",         "seed",           "spring",    "density",  "angle_scale",
-    "step_scale",      "width_scale",    "damping",   "at_depth", "decompose_depth",
-    "interpret_depth", "elasticity",     "load",      "height",   "pipe",
-    "flare",           "collar",         "tips",      "tropisms", "width_unit",
-    "colour",          "width_increment"};
+constexpr std::array<std::string_view, 35> kSettings{"turtle",
+                                                     "names",
+                                                     "rewriting",
+                                                     "choice",
+                                                     "weights",
+                                                     "random",
+                                                     "angle",
+                                                     "step",
+                                                     "width",
+                                                     "sides",
+                                                     "tropism",
+                                                     "seed",
+                                                     "spring",
+                                                     "density",
+                                                     "angle_scale",
+                                                     "step_scale",
+                                                     "width_scale",
+                                                     "damping",
+                                                     "at_depth",
+                                                     "decompose_depth",
+                                                     "interpret_depth",
+                                                     "elasticity",
+                                                     "load",
+                                                     "height",
+                                                     "pipe",
+                                                     "flare",
+                                                     "collar",
+                                                     "tips",
+                                                     "tropisms",
+                                                     "width_unit",
+                                                     "colour",
+                                                     "width_increment",
+                                                     "colour_increment",
+                                                     "word_shape",
+                                                     "scale"};
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';

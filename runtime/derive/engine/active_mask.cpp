@@ -163,8 +163,9 @@ void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
     for (std::size_t i = 0; i < group_count; ++i) {
         const auto [left, right] = groups[i];
         const auto bit = static_cast<std::uint8_t>(kAnyNeighbours << 1 << i);
-        tables_.at_begin |= left == kNone ? bit : 0;
-        tables_.at_end |= right == kNone ? bit : 0;
+        const bool is_ring = plan.bytecode().settings.word_shape == WordShape::Ring;
+        tables_.at_begin |= left == kNone || is_ring ? bit : 0;
+        tables_.at_end |= right == kNone || is_ring ? bit : 0;
         tables_.looks_left = tables_.looks_left || left != kNone;
         tables_.looks_right = tables_.looks_right || right != kNone;
         for (Code code = 0; code < codes; ++code) {

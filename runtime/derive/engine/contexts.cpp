@@ -12,7 +12,9 @@ ContextRole context_role(const BytecodeSymbol& symbol) {
                                                     : ContextRole::Module;
 }
 
-ContextTables::ContextTables(const Plan& plan) : has_structure_(plan.has_structure()) {
+ContextTables::ContextTables(const Plan& plan)
+    : has_structure_(plan.has_structure()),
+      is_ring_(plan.bytecode().settings.word_shape == WordShape::Ring) {
     const Bytecode& bytecode = plan.bytecode();
     const TableRange stage = plan.productions();
     for (std::uint32_t p = stage.first; p < stage.first + stage.count; ++p) {
@@ -59,7 +61,7 @@ bool ContextTables::build(const Plan& plan, std::span<const C> word) {
     const C* const codes = word.data();
     count_ = word.size();
     needs_offsets_ = plan.reads_contexts() && plan.has_parameters();
-    plain_ = !has_structure_ || is_plain(codes);
+    plain_ = !has_structure_ || (!is_ring_ && is_plain(codes));
     if (!plain_) {
         if ((needs_left_ && !left_.reserve(count_, count_)) ||
             (needs_right_ && !next_.reserve(count_ + 1, count_)) ||
@@ -67,10 +69,16 @@ bool ContextTables::build(const Plan& plan, std::span<const C> word) {
             return false;
         }
         if (needs_left_) {
-            build_left(codes);
+            const std::uint64_t last = build_left(codes, kNowhere);
+            if (is_ring_) {
+                build_left(codes, last);
+            }
         }
         if (needs_right_) {
-            build_right(codes);
+            build_right(codes, kNowhere);
+            if (is_ring_) {
+                build_right(codes, next_.get(0));
+            }
         }
     }
     if (needs_offsets_) {
@@ -90,9 +98,8 @@ bool ContextTables::is_plain(const C* codes) const {
 
 /// Scans the word once from the left; a stack holds the module to the left of each open `[`.
 template <typename C>
-void ContextTables::build_left(const C* codes) {
+std::uint64_t ContextTables::build_left(const C* codes, std::uint64_t left) {
     std::vector<std::uint64_t> open;
-    std::uint64_t left = kNowhere;
     for (std::uint64_t i = 0; i < count_; ++i) {
         left_.set(i, left);
         switch (roles_[codes[i]]) {
@@ -113,21 +120,21 @@ void ContextTables::build_left(const C* codes) {
             break;
         }
     }
+    return open.empty() ? left : open.front();
 }
 
 /// Scans the word once from the right. At a `]` the axis of a branch ends; before its `[` the next
 /// module on the axis is the one after the branch. A `[` without its `]` is a branch that reaches
 /// to the end of the word.
 template <typename C>
-void ContextTables::build_right(const C* codes) {
+void ContextTables::build_right(const C* codes, std::uint64_t next) {
     struct Closed {
         std::uint64_t next; // the next module on the axis behind the branch
         std::uint64_t gap;  // the gap after the `]`
     };
     std::vector<Closed> closed;
-    std::uint64_t next = kNowhere;    // index of the next module on the axis
     std::uint64_t unignored = count_; // index of the next module or bracket that is not ignored
-    next_.set(count_, kNowhere);
+    next_.set(count_, next);
     for (std::uint64_t i = count_; i-- > 0;) {
         switch (roles_[codes[i]]) {
         case ContextRole::Module:

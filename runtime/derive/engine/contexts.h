@@ -96,12 +96,14 @@ public:
 private:
     template <typename C>
     [[nodiscard]] bool is_plain(const C* codes) const;
-    /// Builds left_, the table of left_of().
+    /// Builds left_, the table of left_of(). `left`: the module left of the word. Returns the last
+    /// module on its main axis.
     template <typename C>
-    void build_left(const C* codes);
-    /// Builds next_ and jump_, the tables of next_from() and jump_from().
+    std::uint64_t build_left(const C* codes, std::uint64_t left);
+    /// Builds next_ and jump_, the tables of next_from() and jump_from(). `next`: the module after
+    /// the word.
     template <typename C>
-    void build_right(const C* codes);
+    void build_right(const C* codes, std::uint64_t next);
     /// Builds offsets_, the table of offset_before().
     template <typename C>
     void build_offsets(const C* codes, const Plan& plan);
@@ -117,6 +119,7 @@ private:
     std::uint64_t count_ = 0;        // modules of the word
     bool plain_ = true;
     bool has_structure_ = false; // Plan::has_structure(): the word may have brackets
+    bool is_ring_ = false;       // contexts go on from one end of the word to the other
     // Tables that the active productions need:
     bool needs_left_ = false;
     bool needs_right_ = false;

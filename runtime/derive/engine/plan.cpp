@@ -74,6 +74,7 @@ void Plan::make_codes() {
     }
     codes_.pool.resize(codes_.pool.size() + kWordSlack);
 
+    has_structure_ = bytecode_.settings.word_shape == WordShape::Ring;
     std::uint32_t max_stored = 0;
     for (const BytecodeSymbol& symbol : bytecode_.symbols) {
         max_stored = std::max(max_stored, symbol.parameter_count);

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kTurnPerStep = std::numbers::pi / 18.0; // 10 degrees
 constexpr std::uint32_t kMaxSteps = 24;
+constexpr std::uint32_t kRadiusSteps = 12; // at least, where the radius follows a curve
 
 /// Hermite curve from one point to the next.
 struct HermiteCurve {
@@ -63,6 +64,41 @@ AxisStation station_of(const OrganPoint& point, double part) {
     return station;
 }
 
+/// The part of the way and the radius along a stretch, a cubic Hermite curve as in cpfg.
+class RadiusCurve {
+public:
+    RadiusCurve(const OrganPoint& a, const OrganPoint& b, double chord) {
+        from_ = 0.5 * static_cast<double>(a.width);
+        rise_ = 0.5 * static_cast<double>(b.width) - from_;
+        const double scale = b.radii.per_chord ? chord : 1.0;
+        is_even_ = !read(a.radii.part_after, a.radii.radius_after, scale, begin_);
+        is_even_ = !read(b.radii.part_before, b.radii.radius_before, scale, end_) && is_even_;
+    }
+    [[nodiscard]] bool is_even() const { return is_even_; }
+    /// The part of the way in x and the radius in y.
+    [[nodiscard]] glm::dvec2 at(double t) const {
+        const glm::dvec2 whole(1.0, rise_);
+        const glm::dvec2 square = 3.0 * whole - 2.0 * begin_ - end_;
+        const glm::dvec2 cube = begin_ + end_ - 2.0 * whole;
+        return glm::dvec2(0.0, from_) + t * (begin_ + t * (square + t * cube));
+    }
+
+private:
+    /// Returns false for a tangent of length 0, which is replaced by an even one.
+    bool read(float part, float radius, double scale, glm::dvec2& tangent) const {
+        const bool is_given = part != 0.0F || radius != 0.0F;
+        tangent = is_given ? glm::dvec2(part, static_cast<double>(radius) * scale)
+                           : glm::dvec2(1.0, rise_);
+        return is_given;
+    }
+
+    double from_ = 0.0; // m
+    double rise_ = 0.0;
+    glm::dvec2 begin_{};
+    glm::dvec2 end_{};
+    bool is_even_ = true;
+};
+
 /// Number of steps for a bend by `turn` and a roll by `roll`, in radians.
 std::uint32_t step_count(double turn, double roll, std::uint32_t level, std::uint32_t min_steps) {
     // Angles of rounding errors need no step.
@@ -93,12 +129,16 @@ std::vector<AxisStation> stations_between(const OrganPoint& a,
     const glm::dvec3 rough = transported(begin.right, begin.heading, end.heading);
     const double rough_roll = exact_atan2(glm::dot(end.right, glm::cross(rough, end.heading)),
                                           glm::dot(end.right, rough));
-    const std::uint32_t steps = step_count(turn, rough_roll, level, min_steps);
+    const RadiusCurve radii(a, b, length);
+    const std::uint32_t steps = step_count(turn, rough_roll, level,
+                                           std::max(min_steps, radii.is_even() ? 1 : kRadiusSteps));
     std::vector<AxisStation> stations{begin};
     for (std::uint32_t i = 1; i <= steps; ++i) {
         const AxisStation& before = stations.back();
         AxisStation station;
-        station.part = static_cast<double>(i) / steps;
+        const double even = static_cast<double>(i) / steps;
+        const glm::dvec2 curved = radii.at(even);
+        station.part = radii.is_even() ? even : curved.x;
         station.position = curve.point(station.part);
         const glm::dvec3 slope = curve.slope(station.part);
         const double speed = glm::length(slope);
@@ -107,7 +147,8 @@ std::vector<AxisStation> stations_between(const OrganPoint& a,
                                                   : before.heading;
         station.right = transported(before.right, before.heading, station.heading);
         station.up = glm::cross(station.right, station.heading);
-        station.width = begin.width + station.part * (end.width - begin.width);
+        station.width = radii.is_even() ? begin.width + station.part * (end.width - begin.width)
+                                        : std::max(0.0, 2.0 * curved.y);
         stations.push_back(station);
     }
     const AxisStation& last = stations.back();

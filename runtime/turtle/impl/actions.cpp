@@ -157,8 +157,9 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             action.quick = QuickAction::None; // restore() calls the watcher
         }
         if (table.draws_organs &&
-            (action.quick == QuickAction::Forward || action.quick == QuickAction::Restore)) {
-            action.quick = QuickAction::None; // they may add points to an organ, or end it
+            (action.quick == QuickAction::Forward || action.quick == QuickAction::Save ||
+             action.quick == QuickAction::Restore)) {
+            action.quick = QuickAction::None; // they may add points to an organ, continue or end it
         }
         table.by_code.push_back(action);
     }

@@ -28,7 +28,7 @@ bool Turtle::State::draw(
     if (has_tropism) {
         bend(now.pose, bytecode.settings.tropism);
     }
-    if (organs.is_open_at(stack.size())) {
+    if (organs.is_open_at(stack.size()) && !traits.organs_branch) {
         advance(now.pose, length);
         now.moved = true;
         return check_finite_pose() && add_organ_point();
@@ -176,19 +176,21 @@ bool Turtle::State::save() {
     if (stack.size() == stack.capacity() && bytes > options.max_bytes) {
         return stop(Stop::Limit);
     }
+    const bool continues = traits.organs_branch && organs.is_open_at(stack.size());
     return within_memory([this] {
-        stack.push_back(now);
-        if (tropisms.any()) {
-            tropisms.save();
-        }
-    });
+               stack.push_back(now);
+               if (tropisms.any()) {
+                   tropisms.save();
+               }
+           }) &&
+           (!continues || continue_organ());
 }
 
 bool Turtle::State::restore() {
     if (stack.empty()) {
         return fault(TurtleFaultKind::Unbalanced);
     }
-    if (organs.is_open_at(stack.size()) && !close_organ()) {
+    if (organs.is_open_at(stack.size()) && !close_organ(organ_end())) {
         return false;
     }
     if (!watched.empty() && watched.back() == stack.size()) {
@@ -216,10 +218,12 @@ TurtlePlace Turtle::State::current_place() const {
     place.sides = now.sides;
     place.colour = now.colour;
     place.colour_index = now.colour_index;
+    place.texture = now.texture;
     place.order = order();
     place.contour = now.contour;
     place.tangent_before = now.tangent_before;
     place.tangent_after = now.tangent_after;
+    place.radii = now.radii;
     return place;
 }
 
@@ -305,14 +309,34 @@ void Turtle::State::set_sides(float sides) {
     now.sides = static_cast<std::uint8_t>(fitting);
 }
 
+/// The colour index `count` indices on; after 255 comes 0 if the colours wrap.
+double Turtle::State::colour_after(double count) const {
+    const double index = now.colour_index + count;
+    return traits.colours_wrap && index >= kColours ? std::fmod(index, kColours) : index;
+}
+
 void Turtle::State::set_colour(double index) {
-    constexpr double kMaxColour = std::numeric_limits<std::uint16_t>::max();
-    const double fitting = std::clamp(std::round(index), 0.0, kMaxColour);
+    const double fitting = std::clamp(std::round(index), 0.0, double{kMaxColourIndex});
     if (fitting != std::round(index)) {
         note(TurtleFaultKind::ColourOutOfRange);
     }
     now.colour_index = static_cast<std::uint16_t>(fitting);
-    now.colour = now.colour_index;
+    now.colour = std::min(now.texture * kTextureColours + now.colour_index, kMaxColourIndex);
+}
+
+std::bitset<kTextures> textures_of(std::span<const BytecodeMaterial> materials) {
+    std::bitset<kTextures> textures;
+    for (const BytecodeMaterial& material : materials) {
+        textures.set(material.index / kTextureColours);
+    }
+    return textures;
+}
+
+void Turtle::State::set_texture(double number) {
+    const bool is_valid =
+        number >= 0.0 && number < double{kTextures} && textures[static_cast<std::size_t>(number)];
+    now.texture = is_valid ? static_cast<std::uint16_t>(number) : 0;
+    set_colour(now.colour_index);
 }
 
 /// A colour without an index: red, green and blue in sRGB, 0 to 1.
@@ -475,15 +499,17 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
         return true;
     case TurtleOperation::SetColour:
         set_colour(action.argument_count != 0 ? static_cast<double>(arguments[0])
-                                              : now.colour_index + 1.0);
+                                              : colour_after(settings.colour_increment));
         return true;
     case TurtleOperation::PreviousColour:
         set_colour(action.argument_count != 0 ? static_cast<double>(arguments[0])
-                   : now.colour_index == 0    ? kColours - 1.0
-                                              : now.colour_index - 1.0);
+                                              : colour_after(kColours - settings.colour_increment));
         return true;
     case TurtleOperation::SetRgb:
         set_rgb(arguments);
+        return true;
+    case TurtleOperation::SetTexture:
+        set_texture(static_cast<double>(argument(0.0F)));
         return true;
     case TurtleOperation::Save:
         return save();
@@ -512,9 +538,12 @@ bool Turtle::State::execute(const Action& action, const float* arguments) {
             return true;
         }
         return action.operation == TurtleOperation::SurfacePoint ? add_organ_point()
-                                                                 : close_organ();
+                                                                 : close_organ(OrganEnd::Here);
     case TurtleOperation::SurfaceTangents:
         set_tangents(action, arguments);
+        return true;
+    case TurtleOperation::SurfaceRadii:
+        set_radius_tangents(action, arguments);
         return true;
     case TurtleOperation::SetContour:
         now.contour = action.argument_count > 0 && action.contour == kNoContour

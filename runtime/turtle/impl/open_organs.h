@@ -19,8 +19,9 @@ struct OpenOrganPoint {
 };
 
 struct OpenOrgan {
-    std::size_t depth = 0; // open brackets at its begin
-    std::size_t first = 0; // index of its first point in OpenOrgans::points
+    std::size_t depth = 0;  // open brackets at its begin
+    std::size_t first = 0;  // index of its first point in OpenOrgans::points
+    bool continues = false; // a `[` continues the organ of the branch around it
     PlacedObject object;
     Origin origin;              // of its SURFACE_BEGIN
     std::uint64_t position = 0; // of its SURFACE_BEGIN in the word

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The commands of organs: SURFACE_BEGIN, SURFACE_POINT, SURFACE_END, SURFACE_TANGENTS.
+// The commands of organs: SURFACE_BEGIN, SURFACE_POINT, SURFACE_END, SURFACE_TANGENTS,
+// SURFACE_RADII.
+#include "runtime/base/exact_functions.h"
 #include "runtime/turtle/impl/state.h"
 
 namespace lsys {
@@ -56,6 +58,7 @@ bool Turtle::State::add_organ_point() {
     added.point.width = now.width;
     added.point.tangent_before = now.tangent_before;
     added.point.tangent_after = now.tangent_after;
+    added.point.radii = now.radii;
     added.point.contour = now.contour;
     added.point.colour = now.colour;
     added.point.sides = now.sides;
@@ -72,15 +75,30 @@ bool Turtle::State::add_organ_point() {
     return within_memory([&] { points.push_back(added); });
 }
 
-/// Ends the open organ at the turtle's place and draws it.
-bool Turtle::State::close_organ() {
-    if (!add_organ_point()) {
+/// Continues the open organ, from its last point, in the branch that begins (cpfg).
+bool Turtle::State::continue_organ() {
+    OpenOrgan organ = organs.open.back();
+    organ.depth = stack.size();
+    organ.first = organs.points.size();
+    organ.continues = true;
+    const OpenOrganPoint last = organs.points.back();
+    return within_memory([&] {
+        organs.points.push_back(last);
+        organs.open.push_back(organ);
+    });
+}
+
+/// Ends the open organ and draws it.
+bool Turtle::State::close_organ(OrganEnd place) {
+    if (place == OrganEnd::Here && !add_organ_point()) {
         return false;
     }
     const OpenOrgan organ = organs.open.back();
     const std::size_t count = organs.points.size() - organ.first;
     const Pose base = organs.points[organ.first].pose;
-    if (count < 2) {
+    if (count < 2 && organ.continues) {
+        // The branch adds nothing to the organ.
+    } else if (count < 2) {
         note_at(TurtleFaultKind::SmallSurface, organ.position, organ.code);
     } else {
         if (!make_room(skeleton.organs) || !make_room(skeleton.objects)) {
@@ -118,7 +136,7 @@ bool Turtle::State::close_all_organs() {
         while (organs.open.back().depth < depth) {
             now = stack[--depth];
         }
-        if (!close_organ()) {
+        if (!close_organ(organ_end())) {
             return false;
         }
     }
@@ -132,6 +150,27 @@ void Turtle::State::set_tangents(const Action& action, const float* arguments) {
         now.tangent_before = 1.0F;
         now.tangent_after = 1.0F;
     }
+}
+
+void Turtle::State::set_radius_tangents(const Action& action, const float* arguments) {
+    if (action.argument_count == 1) {
+        now.radii.per_chord = arguments[0] != 0.0F;
+        return;
+    }
+    if (action.argument_count == 0) {
+        now.radii = {};
+        return;
+    }
+    const auto component = [&](std::size_t i, bool is_radius) {
+        const ExactSineCosine turned =
+            exact_sine_cosine_of_degrees(static_cast<double>(arguments[i]));
+        const double value =
+            static_cast<double>(arguments[i + 1]) * (is_radius ? turned.sine : turned.cosine);
+        return std::isfinite(value) ? static_cast<float>(value) : 0.0F;
+    };
+    const std::size_t after = action.argument_count > 3 ? 2 : 0;
+    now.radii = {component(0, false), component(0, true), component(after, false),
+                 component(after, true), now.radii.per_chord};
 }
 
 } // namespace lsys

@@ -354,10 +354,12 @@ bool SensingTurtle::State::execute(const Action& action,
     case TurtleOperation::SubtractColour:
     case TurtleOperation::PreviousColour:
     case TurtleOperation::SetRgb:
+    case TurtleOperation::SetTexture:
     case TurtleOperation::SurfaceBegin: // organs have no area for environments
     case TurtleOperation::SurfacePoint:
     case TurtleOperation::SurfaceEnd:
     case TurtleOperation::SurfaceTangents:
+    case TurtleOperation::SurfaceRadii:
     case TurtleOperation::SetContour:
     case TurtleOperation::Cut: // the modules that it will cut off are walked, too
         return true;

@@ -15,9 +15,11 @@
 #include "runtime/turtle/turtle.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -30,12 +32,20 @@ inline constexpr float kPercent = 0.01F;
 inline constexpr double kFullTurn = 360.0;
 /// Number of colours of Fractint; colour 0 is the background.
 inline constexpr double kColours = 256.0;
+/// Colours per texture (SetTexture).
+inline constexpr std::uint32_t kTextureColours = 256;
+inline constexpr std::uint32_t kTextures = (kMaxColourIndex + 1) / kTextureColours;
+/// Numbers of the textures that have a material.
+[[nodiscard]] std::bitset<kTextures> textures_of(std::span<const BytecodeMaterial> materials);
 
 /// Sides of a segment in the program L3D, by the ratio of radius to length.
 [[nodiscard]] inline std::uint8_t l3d_sides(float thickness) {
     const auto value = static_cast<double>(thickness);
     return value < 0.2 ? 20 : value < 0.4 ? 40 : value < 0.6 ? 60 : value < 0.8 ? 80 : 100;
 }
+
+/// Whether an organ ends at the turtle's place, which becomes a point, or at its last point.
+enum class OrganEnd : std::uint8_t { Here, LastPoint };
 
 /// The part of the state that `[` saves with the pose.
 struct Brush {
@@ -48,9 +58,11 @@ struct Brush {
     std::uint32_t segment = kNoSegment; // the last one drawn on the path
     ItemColour colour = 0;
     std::uint16_t colour_index = 0;     // the last index that was set
+    std::uint16_t texture = 0;          // number of the texture, 0: none
     std::uint32_t contour = kNoContour; // index in Bytecode::contours
     float tangent_before = 1.0F;        // of the axes of organs, relative to the chord
     float tangent_after = 1.0F;
+    RadiusTangents radii; // of organs
     std::uint8_t sides = 0;
     bool moved = false; // whether the turtle has moved since `segment` was drawn
 };
@@ -173,14 +185,22 @@ struct Turtle::State {
     bool quick_forward(const Action& action, const float* arguments, Pose& pose);
     bool close_polygon(); // adds the polygon that was opened last
     bool begin_organ();
-    bool add_organ_point();  // adds the place of the turtle
-    bool close_organ();      // adds the open organ
-    bool close_all_organs(); // at the end of the word
+    bool add_organ_point();           // adds the place of the turtle
+    bool close_organ(OrganEnd place); // adds the open organ
+    bool close_all_organs();          // at the end of the word
+    /// Where organs end that are open at the end of their branch.
+    [[nodiscard]] OrganEnd organ_end() const {
+        return traits.organs_branch ? OrganEnd::LastPoint : OrganEnd::Here;
+    }
+    bool continue_organ(); // in the branch that begins
     /// Sets Brush::tangent_before and tangent_after.
     void set_tangents(const Action& action, const float* arguments);
+    void set_radius_tangents(const Action& action, const float* arguments);
     void set_width(float width);
     void set_sides(float sides);
+    [[nodiscard]] double colour_after(double count) const;
     void set_colour(double index);
+    void set_texture(double number); // without a material for it: none
     void set_rgb(const float* parts);
     void scale_angle(float factor);
     void turn_left(double degrees);
@@ -237,6 +257,7 @@ struct Turtle::State {
     OpenPolygons polygons{bytecode.settings.traits.corners_are_ends};
     OpenOrgans organs;
     Tropisms tropisms{bytecode.settings.tropisms};
+    std::bitset<kTextures> textures = textures_of(bytecode.materials); // the valid ones
     DrawingEnd end;
     std::uint64_t position = 0; // index of the current module
     Code code = 0;              // code of the current module

@@ -1,1 +1,2 @@
-initial line width: 0.1
+initial line width: 0.12
+initial color: 20

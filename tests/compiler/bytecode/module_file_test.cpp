@@ -58,8 +58,8 @@ TEST_CASE("contours are read back as they were written") {
 
 TEST_CASE("the bytes of a module file change only with its version") {
     // If this number changes, the format of the file has changed: increase kModuleFileVersion.
-    REQUIRE(kModuleFileVersion == 14);
-    CHECK(checksum(write_module_file(test::small_bytecode())) == 0x39EFCF5BB7975F68);
+    REQUIRE(kModuleFileVersion == 15);
+    CHECK(checksum(write_module_file(test::small_bytecode())) == 0x2B494211035B1CA1);
 }
 
 TEST_CASE("every truncation of a module file is refused") {
@@ -89,11 +89,11 @@ TEST_CASE("foreign, older, newer and longer files have different errors") {
     CHECK(refusal("#w : A;\n") == "not a compiled grammar (.lsb)");
     std::string newer = bytes;
     newer[8] = static_cast<char>(kModuleFileVersion + 1);
-    CHECK(refusal(newer) == "made by a newer lsc (format 15, this one reads 14)");
+    CHECK(refusal(newer) == "made by a newer lsc (format 16, this one reads 15)");
     std::string older = bytes;
     older[8] = 5;
     CHECK(refusal(older) ==
-          "made by an older lsc (format 5, this one reads 14): compile the grammar again");
+          "made by an older lsc (format 5, this one reads 15): compile the grammar again");
     CHECK(refusal(bytes + "x") == "the file is damaged: 1 bytes follow its end");
     std::string damaged = bytes;
     damaged.back() = static_cast<char>(damaged.back() ^ 1);
@@ -147,6 +147,8 @@ TEST_CASE("tropisms, the unit of widths and the first colour are read back and c
     settings.width_unit = WidthUnit::Pixels;
     settings.width_increment = 0.5F;
     settings.colour = 128;
+    settings.colour_increment = 255;
+    settings.scale = 2.0F;
     CHECK(digest(bytecode) == digest(test::small_bytecode())); // saved words stay valid
     const Result<Bytecode> read = read_module_file(write_module_file(bytecode));
     REQUIRE(read.ok());
@@ -154,6 +156,12 @@ TEST_CASE("tropisms, the unit of widths and the first colour are read back and c
     CHECK(read.value().settings.width_unit == WidthUnit::Pixels);
     CHECK(read.value().settings.width_increment == 0.5F);
     CHECK(read.value().settings.colour == 128);
+    CHECK(read.value().settings.colour_increment == 255);
+    CHECK(read.value().settings.scale == 2.0F);
+    CHECK(read.value().settings.word_shape == WordShape::Line);
+    settings.word_shape = WordShape::Ring;
+    CHECK(digest(bytecode) != digest(test::small_bytecode()));
+    CHECK(verify(bytecode) == std::nullopt);
     settings.tropisms[3] = settings.tropisms[1];
     CHECK(verify(bytecode) == "a tropism behind the last one");
     settings.tropisms[3] = {};

@@ -163,14 +163,15 @@ TEST_CASE("the help for an unknown key lists every setting") {
     const Diagnostic* error = c.find(DiagnosticCode::UnknownKey);
     REQUIRE(error != nullptr);
     REQUIRE(error->help.size() == 1);
-    CHECK(error->help[0] ==
-          "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
-          "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `flare`, "
-          "`tips`, `tropisms`, `width_unit`, `angle`, `step`, "
-          "`width`, "
-          "`angle_scale`, `step_scale`, "
-          "`width_scale`, `elasticity`, `density`, `damping`, `collar`, `width_increment`, "
-          "`sides`, `decompose_depth`, `interpret_depth`, `colour`");
+    CHECK(
+        error->help[0] ==
+        "the settings are `turtle`, `names`, `rewriting`, `choice`, `weights`, `random`, "
+        "`tropism`, `seed`, `spring`, `load`, `at_depth`, `height`, `pipe`, `flare`, "
+        "`tips`, `tropisms`, `width_unit`, `word_shape`, `angle`, `step`, "
+        "`width`, "
+        "`angle_scale`, `step_scale`, "
+        "`width_scale`, `elasticity`, `density`, `damping`, `collar`, `width_increment`, `scale`, "
+        "`sides`, `decompose_depth`, `interpret_depth`, `colour`, `colour_increment`");
 }
 
 TEST_CASE("the parser knows every setting, and adds a missing `set`") {

@@ -97,10 +97,10 @@ TEST_CASE("every mistake in a saved state is reported") {
     CHECK(message(with_byte(8, kStateFileVersion + 1)) ==
           "the saved state was made by a newer lsc (its format is version 4, this one reads 3)");
     CHECK(message(with_byte(12, 4)) == "the saved state was made by an older lsc (its bytecode is "
-                                       "version 4, this one reads 14): derive it again");
+                                       "version 4, this one reads 15): derive it again");
     CHECK(
         message(with_byte(12, kModuleFileVersion + 1)) ==
-        "the saved state was made by a newer lsc (its bytecode is version 15, this one reads 14)");
+        "the saved state was made by a newer lsc (its bytecode is version 16, this one reads 15)");
 
     BytecodeBuilder other = plant_builder();
     other.production("s : f : * : f f");

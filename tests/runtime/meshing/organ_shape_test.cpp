@@ -203,6 +203,29 @@ TEST_CASE("the roll between two points is turned evenly") {
     }
 }
 
+TEST_CASE("radii follow the Hermite curve of their tangents") {
+    OrganPoint a;
+    a.width = 0.4F;
+    a.radii = {0.0F, 0.0F, 0.5F, 0.75F, false};
+    OrganPoint b;
+    b.position = {0.0F, 2.0F, 0.0F};
+    b.width = 0.2F;
+    b.radii = {0.25F, -0.5F, 0.0F, 0.0F, true}; // -0.5 chords
+    const std::vector<AxisStation> stations = stations_between(a, b, 0, 1);
+    REQUIRE(stations.size() == 13);
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+        const double t = static_cast<double>(i) / 12.0;
+        // The basis functions of Hermite; the flag of the second point scales both tangents.
+        const double from = 2 * t * t * t - 3 * t * t + 1;
+        const double to = -2 * t * t * t + 3 * t * t;
+        const double out = t * t * t - 2 * t * t + t;
+        const double in = t * t * t - t * t;
+        CHECK(stations[i].part == Approx(to + out * 0.5 + in * 0.25).margin(1e-9));
+        const double radius = from * 0.2 + to * 0.1 + out * 0.75 * 2.0 + in * -0.5 * 2.0;
+        CHECK(stations[i].width == Approx(2.0 * std::max(radius, 0.0)).margin(1e-7));
+    }
+}
+
 TEST_CASE("an axis follows the Bezier curve with the same tangents, without turning about it") {
     OrganPoint a;
     a.position = {0.1F, 0.2F, 0.3F};

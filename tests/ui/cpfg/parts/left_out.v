@@ -1,8 +1,7 @@
 tropism direction: 0 0 0
 tropism: T: 0 up
-color increment: 5
-texture: F: bark.rgb
-initial scale: 2
+texture: F: bark.tga
+initial scale: -2
 tsurface: t leaf.t 1
 initial line width: thin
 light: V: 1 1 1

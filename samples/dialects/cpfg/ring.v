@@ -1,0 +1,2 @@
+angle increment: 15
+line style: cylinder

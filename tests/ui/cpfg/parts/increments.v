@@ -1,0 +1,3 @@
+initial color: 200
+color increment: 30
+line style: cylinder
