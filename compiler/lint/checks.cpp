@@ -2,6 +2,7 @@
 #include "compiler/lint/checks.h"
 
 #include "compiler/lint/impl/lints.h"
+#include "grammar/base/cancellation.h"
 
 namespace lsys {
 
@@ -42,6 +43,7 @@ constexpr ListedCheck kChecks[] = {
 
 void run_checks(const CheckInput& input, Diagnostics& diagnostics) {
     for (const ListedCheck& listed : kChecks) {
+        stop_if_cancelled();
         if (input.program.is_valid || !listed.needs_valid) {
             listed.check(input, diagnostics);
         }

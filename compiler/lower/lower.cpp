@@ -6,6 +6,7 @@
 #include "compiler/lower/impl/code_emitter.h"
 #include "compiler/lower/impl/module_folder.h"
 #include "compiler/lower/impl/place_writer.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/contract.h"
 
 #include <algorithm>
@@ -182,6 +183,7 @@ private:
     }
 
     BytecodeProduction lowered(const Production& production) {
+        stop_if_cancelled();
         BytecodeProduction lowered;
         lowered.name = names_.text(production.name);
         lowered.name_site = emitter_.add_site(production.name_span);

@@ -19,6 +19,7 @@
 #include "compiler/resolve/impl/words.h"
 #include "compiler/resolve/known_words.h"
 #include "compiler/resolve/profiles.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/synonyms.h"
 
 #include <fmt/format.h>
@@ -100,6 +101,7 @@ public:
         expressions_.keep_expressions(has_functions);
         std::vector<std::size_t> deferred_productions;
         for (std::size_t i = 0; i < ast.statements.size(); ++i) {
+            stop_if_cancelled();
             const Statement statement = ast.statements[i];
             switch (statement.kind) {
             case StatementKind::Function:
@@ -152,6 +154,7 @@ public:
         }
         expressions_.keep_expressions(false);
         for (const std::size_t i : deferred_productions) {
+            stop_if_cancelled();
             constants_.visible_until(i);
             const Statement statement = ast.statements[i];
             productions.resolve(ast.productions[statement.index], statement.span);

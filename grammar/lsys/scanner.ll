@@ -9,6 +9,7 @@
 %option prefix="lsys_yy" extra-type="lsys::ParseSession*"
 
 %{
+#include "grammar/base/cancellation.h"
 #include "grammar/base/scanner_memory.h"
 #include "grammar/lsys/impl/expression_tokens.h"
 #include "grammar/lsys/impl/lookahead.h"
@@ -24,6 +25,7 @@
         lsys::ParseSession& session, void* yyscanner)
 
 #define YY_USER_ACTION                                                                             \
+    lsys::stop_if_cancelled();                                                                     \
     scan.begin = static_cast<std::uint32_t>(yytext - YY_CURRENT_BUFFER_LVALUE->yy_ch_buf);         \
     scan.end = scan.begin + static_cast<std::uint32_t>(yyleng);
 

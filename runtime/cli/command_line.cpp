@@ -53,7 +53,8 @@ void add_check(CLI::App& app, CheckCommand& command) {
                        : fmt::format("`{}` is neither certain nor offered", choice);
         });
     app.add_flag("--diff", command.diff,
-                 "With --fix: print the repairs as a unified diff, and write no file");
+                 "With --fix: print the repairs as a unified diff, and write no file")
+        ->needs("--fix");
     app.add_flag("--part", command.part,
                  "FILE is a part that other grammars include: no axiom is missing, and names may "
                  "be defined elsewhere (default: whether a grammar in its folder or the one above "

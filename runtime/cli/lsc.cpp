@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/cli/lsc.h"
 
+#include "grammar/base/cancellation.h"
 #include "runtime/base/deadline.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/cli/command_line.h"
@@ -53,6 +54,17 @@ public:
     }
 
 private:
+    /// Runs a command. Parsing and compiling end when the run is interrupted.
+    template <typename Command>
+    static ExitStatus run_cancellable(const Command& command, const Console& console) {
+        const CancellationScope scope(console.io().interrupted);
+        try {
+            return run_command(command, console);
+        } catch (const CompilationCancelled&) {
+            return ExitStatus::Interrupted;
+        }
+    }
+
     /// Runs a command within `--max-time` and `--max-output`.
     template <typename Command>
     ExitStatus run_within_limits(const Command& command, Io io) const {
@@ -66,7 +78,7 @@ private:
             io.interrupted = deadline->stop();
         }
         const Console console(io, command.messages);
-        const ExitStatus status = console.finish(run_command(command, console));
+        const ExitStatus status = console.finish(run_cancellable(command, console));
         if (deadline && deadline->has_passed()) {
             console.error(late);
             return ExitStatus::Limit;

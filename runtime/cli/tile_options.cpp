@@ -58,7 +58,8 @@ Result<TilePart> parse_part(const std::string& text) {
     const Result<std::uint64_t> i = parse(number);
     const Result<std::uint64_t> n = parse(of);
     if (!i || !n || i.value() > n.value()) {
-        return Error{fmt::format("`{}` is not I/N, with I from 1 to N", text)};
+        return Error{
+            fmt::format("`{}` is not I/N, with I from 1 to N and N up to {}", text, kMaxParts)};
     }
     return TilePart{i.value(), n.value()};
 }

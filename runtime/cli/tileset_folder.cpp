@@ -19,8 +19,16 @@ namespace lsys::lsc {
 
 namespace fs = std::filesystem;
 
-// Number of files that are stored at once: many, so that storing takes less time than making them.
-constexpr std::size_t kFilesStoredAtOnce = 128;
+namespace {
+
+/// Number of files that are stored at once: many, so that storing takes less time than making them.
+/// Each is open until it has its name.
+std::size_t files_stored_at_once() {
+    constexpr std::size_t kMostFiles = 128;
+    return std::clamp<std::size_t>(platform::max_open_files() / 4, 1, kMostFiles);
+}
+
+} // namespace
 
 NextFile files_of_part(const TilePart& part, std::uint64_t end) {
     const auto taken = std::make_shared<std::atomic<std::uint64_t>>(0);
@@ -158,7 +166,7 @@ void TilesetFolder::write_file_at(const std::string& path, const Make& make) {
     if (is_stopped_) {
         return;
     }
-    Result<Output> output = Output::open(whole, console_);
+    Result<Output> output = Output::open_one_of_many(whole, console_);
     Result<void> written = output ? output.value().write(bytes) : Result<void>(output.error());
     if (written) {
         written = output.value().finish(Storing::BySystem);
@@ -175,7 +183,7 @@ void TilesetFolder::write_file_at(const std::string& path, const Make& make) {
         outputs_.push_back(std::move(output.value()));
         count = outputs_.size();
     }
-    if (count >= kFilesStoredAtOnce) {
+    if (count >= files_stored_at_once()) {
         name_files();
     }
 }

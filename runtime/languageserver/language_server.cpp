@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/languageserver/language_server.h"
 
+#include "grammar/base/cancellation.h"
+#include "runtime/base/deadline.h"
 #include "runtime/languageserver/impl/plant_preview.h"
 #include "runtime/languageserver/impl/workspace.h"
 
@@ -415,6 +417,9 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
         fail(RpcError::RequestCancelled, "the request was cancelled");
         return;
     }
+    const LanguageServerHost& host = workspace.host;
+    const Deadline deadline(host.max_seconds, host.project.host.cancelled, {});
+    const CancellationScope scope(deadline.stop());
     try {
         if (is_request && method == kPlantRequest) {
             require_running();
@@ -427,6 +432,11 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
         }
     } catch (const RequestError& error) {
         fail(error.code, error.what());
+    } catch (const CompilationCancelled&) {
+        if (!deadline.has_passed()) {
+            throw; // the program ends
+        }
+        fail(RpcError::RequestFailed, too_slow_message(host.max_seconds));
     } catch (const Json::exception&) {
         fail(RpcError::InvalidParams, "the parameters of `" + method.get<std::string>() +
                                           "` are not as in the specification");

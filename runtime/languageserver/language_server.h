@@ -8,6 +8,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/pipeline/project.h"
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -41,6 +42,10 @@ struct LanguageServerHost {
     std::function<void(const CheckedText&, const Project&, CompiledText& compiled)> offer_doubtful;
     /// The new bytes of each file that `lsc check --fix` changes, by path.
     std::function<std::map<std::string, std::string>(const CheckedText&, const Project&)> fix;
+    /// Max size of a grammar that is checked. Editors send documents of any size.
+    std::uint64_t max_document_bytes = std::uint64_t{16} << 20U;
+    /// Max seconds to check a document, and to answer a request.
+    double max_seconds = 20.0;
 };
 
 class LanguageServer {

@@ -3,9 +3,11 @@
 #include "runtime/library/impl/message_data.h"
 #include "runtime/program/console.h"
 
+#include <algorithm>
 #include <lsys/messages.h>
 #include <lsys/outcome.h>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace lsys::v0 {
@@ -48,6 +50,29 @@ Fix public_fix(const ::lsys::Fix& fix, const SourceMap* sources) {
     return out;
 }
 
+/// Options of lsc in messages, and what they are in this interface.
+struct OptionName {
+    std::string_view option;
+    std::string_view member;
+};
+constexpr OptionName kOptionNames[] = {
+    {"`--max-modules ", "`Limits::max_modules = "}, // followed by a number
+    {"`--max-modules`", "`Limits::max_modules`"},   {"`--max-memory`", "`Limits::max_bytes`"},
+    {"`--max-output`", "`Policy::max_output`"},     {"`--max-time`", "`Policy::max_seconds`"},
+    {"`--sides`", "`MeshOptions::sides`"},          {"`-n ", "`GrammarOptions::generations = "},
+    {"`-n`", "`GrammarOptions::generations`"},
+};
+
+std::string with_member_names(std::string text) {
+    for (const OptionName& name : kOptionNames) {
+        for (std::size_t at = text.find(name.option); at != std::string::npos;
+             at = text.find(name.option, at + name.member.size())) {
+            text.replace(at, name.option.size(), name.member);
+        }
+    }
+    return text;
+}
+
 Diagnostic public_diagnostic(const ::lsys::Diagnostic& diagnostic, const SourceMap* sources) {
     Diagnostic out;
     out.severity = public_severity(diagnostic.severity);
@@ -61,7 +86,9 @@ Diagnostic public_diagnostic(const ::lsys::Diagnostic& diagnostic, const SourceM
         }
     }
     out.notes = diagnostic.notes;
-    out.help = diagnostic.help;
+    for (const std::string& help : diagnostic.help) {
+        out.help.push_back(with_member_names(help));
+    }
     for (const ::lsys::Fix& fix : diagnostic.fixes) {
         out.fixes.push_back(public_fix(fix, sources));
     }
@@ -80,7 +107,7 @@ void add_message(const Message& message, std::vector<Diagnostic>& all) {
         return;
     case Message::Kind::Help:
         if (!all.empty()) {
-            all.back().help.push_back(message.text);
+            all.back().help.push_back(with_member_names(message.text));
         }
         return;
     case Message::Kind::Error:
@@ -133,7 +160,20 @@ std::string Messages::text(MessageStyle style) const {
                      : style == MessageStyle::Json ? MessageFormat::Json
                                                    : MessageFormat::Human;
     options.colour = style == MessageStyle::ColourFrames ? ColourMode::Always : ColourMode::Never;
-    return messages_text(data_->messages, options, "lsys");
+    const std::string text = messages_text(data_->messages, options, "lsys");
+    if (style == MessageStyle::Json) {
+        return with_member_names(text);
+    }
+    // Lines of the grammar stay as they are.
+    constexpr std::string_view kHelp = "help: ";
+    std::string out;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+        const std::string line = text.substr(begin, end - begin);
+        out += line.find(kHelp) == std::string::npos ? line : with_member_names(line);
+        begin = end;
+    }
+    return out;
 }
 
 const char* text_of(Status status) noexcept {

@@ -3,6 +3,7 @@
 
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/message_levels.h"
 #include "grammar/base/paths.h"
 #include "grammar/dialects/other_language.h"
@@ -311,8 +312,11 @@ Result<CompiledText> compile_text(const std::string& path,
     return compiled;
 }
 
+namespace {
+
+/// load_grammar() without its CancellationScope.
 Outcome<Grammar>
-load_grammar(const std::string& path, const GrammarOptions& options, const Project& project) {
+load_source(const std::string& path, const GrammarOptions& options, const Project& project) {
     Step step(project);
     project.begin(LongStep::Read);
     Result<std::string> bytes = step.read(path, {kMaxSourceBytes, project.limits.max_bytes});
@@ -339,6 +343,18 @@ load_grammar(const std::string& path, const GrammarOptions& options, const Proje
     }
     move_environments(options.moves, text.grammar.bytecode);
     return ok ? step.done(std::move(text.grammar)) : step.end_diagnosed();
+}
+
+} // namespace
+
+Outcome<Grammar>
+load_grammar(const std::string& path, const GrammarOptions& options, const Project& project) {
+    const CancellationScope scope(project.host.cancelled);
+    try {
+        return load_source(path, options, project);
+    } catch (const CompilationCancelled&) {
+        return Step(project).end(Stop::Cancelled);
+    }
 }
 
 } // namespace lsys

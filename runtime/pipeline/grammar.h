@@ -103,7 +103,8 @@ read_grammar(const std::string& path, const std::string& dialect, const Project&
 check_system(const std::string& path, Dialect dialect, const GrammarOptions& options);
 
 /// Compiles `text`, the contents of the file `path`. Errors: an error of check_system(); --set
-/// of a key that the dialect does not have.
+/// of a key that the dialect does not have. Throws CompilationCancelled within a CancellationScope
+/// whose flag is set.
 [[nodiscard]] Result<CompiledText> compile_text(const std::string& path,
                                                 GrammarText text,
                                                 const GrammarOptions& options,

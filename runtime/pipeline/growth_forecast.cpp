@@ -45,7 +45,8 @@ bool cannot_exceed(const Bytecode& bytecode, std::uint32_t generations, std::uin
             modules = saturating_multiply(modules, growth);
         }
     }
-    return modules <= max_modules;
+    constexpr std::uint64_t kSaturated = std::numeric_limits<std::uint64_t>::max();
+    return modules <= max_modules && modules != kSaturated;
 }
 
 /// Whether a closing bracket of the template has no partner in it.

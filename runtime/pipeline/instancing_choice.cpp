@@ -51,6 +51,9 @@ struct Choice {
 std::string size_text(std::uint64_t bytes) {
     constexpr double kKiB = 1024.0;
     const auto size = static_cast<double>(bytes);
+    if (size < kKiB) {
+        return fmt::format("{}", bytes);
+    }
     // Round up, so that --memory with this number suffices.
     return size < kKiB * kKiB ? fmt::format("{:.1f}K", std::ceil(size / kKiB * 10.0) / 10.0)
                               : fmt::format("{:.1f}M", std::ceil(size / kKiB / kKiB * 10.0) / 10.0);
@@ -112,18 +115,20 @@ public:
                 }
             }
         }
-        if (smallest.is_set() && !written.cap) {
+        // Where no choice fits into the budget, a cap may make the least one fit.
+        const Choice& capped = smallest.is_set() ? smallest : least;
+        if (!written.cap && (smallest.is_set() || !best_in_budget.is_set())) {
             for (const std::uint32_t cap : kCaps) {
-                Choice choice = smallest;
+                Choice choice = capped;
                 choice.cap = cap;
-                const std::uint64_t bytes = smallest.bytes;
-                if (cap >= smallest.largest_slot) {
+                const std::uint64_t bytes = capped.bytes;
+                if (cap >= capped.largest_slot) {
                     break;
                 }
                 if (!step.take(try_choice(choice, budget))) {
                     return step.end();
                 }
-                if (smallest.bytes < bytes) {
+                if (capped.bytes < bytes) {
                     break; // a larger cap would only take more memory
                 }
             }
@@ -158,6 +163,7 @@ public:
     Choice smallest;          // the choice of least memory with at least `needed` different trees
     Choice best_in_budget;    // the choice with most different trees within the budget
     Choice best;              // the choice with most different trees
+    Choice least;             // the choice of least memory
 
 private:
     /// Grows the heroes of `choice`, sets its results, and keeps it if it is better than earlier
@@ -183,6 +189,7 @@ private:
                     std::max(choice.largest_slot, stage.cache.slots[i].variant_count);
             }
         }
+        least = choice.bytes < least.bytes ? choice : least;
         if (choice.bytes >= smallest.bytes) {
             return step.done();
         }
@@ -250,6 +257,7 @@ std::string nearest_goals(const std::vector<Search>& searches, const InstancingG
     bool all_fit_budget = true;
     double min_part_in_budget = 1.0;
     double min_best_part = 1.0;
+    std::uint64_t least = 0; // least memory of the species that needs most
     std::string smallest_text;
     std::string in_budget_text;
     for (const Search& search : searches) {
@@ -269,6 +277,7 @@ std::string nearest_goals(const std::vector<Search>& searches, const InstancingG
                 min_part_in_budget, part_of(search.best_in_budget.different, search.tree_count()));
             add(search.best_in_budget, in_budget_text);
         }
+        least = std::max(least, search.least.bytes);
         min_best_part =
             std::min(min_best_part, part_of(search.best.different, search.tree_count()));
     }
@@ -287,6 +296,10 @@ std::string nearest_goals(const std::vector<Search>& searches, const InstancingG
     if (goal.max_bytes != 0 && all_fit_budget) {
         return fmt::format("`--variety {}` fits this memory ({})", floor_text(min_part_in_budget),
                            in_budget_text);
+    }
+    if (goal.variety <= 0.0 && least != kNoBytes) {
+        // Each species may use an equal part of the memory.
+        return fmt::format("`--memory {}` is the minimum", size_text(least * searches.size()));
     }
     return fmt::format("`--variety {}` is the maximum", floor_text(min_best_part));
 }

@@ -17,6 +17,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -278,6 +280,33 @@ MeshOptions limited_options(const MeshOptions& options, const Project& project) 
     return limited;
 }
 
+// Meshes are computed in binary32, where squares of lengths overflow at 1.8e19 m. Beyond this
+// distance a mesh would lack parts, other ones for each method.
+constexpr float kMaxExtent = 1e15F; // m
+
+/// An Error if a segment, object or corner is so large or so far away that meshes cannot show it.
+Result<void> check_extent(const Skeleton& skeleton) {
+    const auto is_near = [](float a, float b, float c) {
+        return std::max({std::abs(a), std::abs(b), std::abs(c)}) <= kMaxExtent;
+    };
+    const auto is_point_near = [&](const glm::vec3& at) { return is_near(at.x, at.y, at.z); };
+    const bool fits =
+        std::all_of(skeleton.segments.begin(), skeleton.segments.end(),
+                    [&](const Segment& segment) {
+                        return is_point_near(segment.base) &&
+                               is_near(segment.length, segment.base_radius, segment.tip_radius);
+                    }) &&
+        std::all_of(skeleton.objects.begin(), skeleton.objects.end(),
+                    [&](const PlacedObject& object) {
+                        return is_point_near(object.position) && is_near(object.size, 0.0F, 0.0F);
+                    }) &&
+        std::all_of(skeleton.corners.begin(), skeleton.corners.end(), is_point_near);
+    return fits ? Result<void>()
+                : Error{fmt::format("the plant is too large for a mesh: its coordinates, lengths "
+                                    "and radii are at most {:g} m",
+                                    kMaxExtent)};
+}
+
 template <typename Value>
 Outcome<Value> finish_mesh(Step& step, std::optional<Stop> stop, Value value) {
     if (!stop) {
@@ -301,6 +330,9 @@ Outcome<Mesh> mesh_plant(const Plant& plant,
                          const Project& project) {
     Step step(project);
     project.begin(LongStep::Mesh);
+    if (const Result<void> checked = check_extent(skeleton); !checked) {
+        return step.fail(checked.error());
+    }
     Mesh mesh;
     const std::optional<Stop> stop =
         make_mesh(skeleton, plant.user_meshes, limited_options(options, project), mesh);
@@ -316,6 +348,9 @@ Outcome<DetailLevels> plan_plant_levels(const Plant& plant,
                                         const DetailChain& chain,
                                         const Project& project) {
     Step step(project);
+    if (const Result<void> checked = check_extent(skeleton); !checked) {
+        return step.fail(checked.error());
+    }
     DetailLevels levels;
     const std::optional<Stop> stop = plan_detail_levels(
         skeleton, plant.user_meshes, limited_options(options, project), chain, levels);

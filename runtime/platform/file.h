@@ -97,6 +97,20 @@ void remove_file(const char* path) noexcept;
 /// Exchanges the names of two files. EINVAL or ENOSYS if the file system does not support it.
 [[nodiscard]] Reason exchange_files(const std::string& one, const std::string& other);
 
+/// Locks a file that create_file() has made, until it is closed or its process ends. False: another
+/// process has found the file unlocked and removes it. True without a lock on file systems that
+/// have none; remove_unlocked_file() leaves files there.
+[[nodiscard]] bool lock_new_file(const File& file);
+/// Keeps the lock of a file beyond File::close(), until `lock` is closed. The file may be renamed
+/// and removed meanwhile. `path`: its present path.
+[[nodiscard]] Reason keep_lock(const File& file, const std::string& path, File& lock);
+enum class WithoutLocks : std::uint8_t { Keep, Remove }; // for file systems that have no locks
+/// Removes a regular file that no running process has locked.
+void remove_unlocked_file(const std::string& path, WithoutLocks without_locks);
+
+/// Max number of files that the process may have open at once.
+[[nodiscard]] std::size_t max_open_files();
+
 /// Random bits for names of temporary files; different on each call.
 [[nodiscard]] std::uint64_t random_bits();
 

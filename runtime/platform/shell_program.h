@@ -42,7 +42,8 @@ public:
     /// Closes the standard input of the program, which has half a second to end, and ends it.
     void finish();
 
-    /// How the program has ended: "exit status 3" or "signal 9"; after Reply::Ended.
+    /// How the program has ended: "exit status 3" or "signal 9"; after Reply::Ended. Empty if it
+    /// only closed its output.
     [[nodiscard]] const std::string& exit_text() const { return exit_text_; }
     /// The last characters that the program wrote to its standard error.
     [[nodiscard]] const std::string& messages() const { return messages_; }

@@ -50,8 +50,10 @@ public:
         case Reply::Line:
             return std::nullopt;
         case Reply::Ended:
-            failure.text =
-                fmt::format("its program has ended without an answer ({})", program_.exit_text());
+            failure.text = program_.exit_text().empty()
+                               ? "its program has closed its output without an answer"
+                               : fmt::format("its program has ended without an answer ({})",
+                                             program_.exit_text());
             break;
         case Reply::TimedOut:
             failure.text = fmt::format("its program has not answered in {} seconds", seconds_);

@@ -6,6 +6,7 @@
 #include "runtime/pipeline/grammar.h"
 #include "runtime/platform/file.h"
 #include "runtime/program/run_files.h"
+#include "runtime/program/temporary_file.h"
 
 #include <fmt/format.h>
 
@@ -90,18 +91,6 @@ Result<std::string> read_open_file(const platform::File& file,
             bytes.reserve(std::min(next, std::max(max_bytes, max_bytes + 1)));
         }
     }
-}
-
-/// Six random letters or digits.
-std::string random_letters() {
-    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
-    std::uint64_t bits = platform::random_bits();
-    std::string letters;
-    for (int i = 0; i < 6; ++i) {
-        letters += kLetters[bits % kLetters.size()];
-        bits /= kLetters.size();
-    }
-    return letters;
 }
 
 } // namespace
@@ -209,14 +198,20 @@ Output::Output(Output&& other) noexcept
     : console_(other.console_), path_(std::move(other.path_)), target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, std::string())),
       slot_(std::exchange(other.slot_, nullptr)), file_(std::move(other.file_)),
-      is_finished_(other.is_finished_), must_be_new_(other.must_be_new_), state_(other.state_) {}
+      lock_(std::move(other.lock_)), is_finished_(other.is_finished_),
+      must_be_new_(other.must_be_new_), state_(other.state_) {}
 
 Output::~Output() {
     if (file_.is_open()) {
         static_cast<void>(file_.close()); // close before the removal, as Windows demands
     }
     if (!temporary_.empty()) {
-        platform::remove_file(temporary_.c_str());
+        if (state_ == State::Exchanged) {
+            // Another process may have removed the earlier file and made its own under this name.
+            remove_unlocked_temporary(temporary_, target_);
+        } else {
+            platform::remove_file(temporary_.c_str());
+        }
         forget_temporary();
     }
 }
@@ -231,20 +226,12 @@ void Output::forget_temporary() {
 /// Makes an empty file in the folder of target_. If the target exists, the file is private and then
 /// gets `permissions`; else its permissions follow the umask.
 Result<void> Output::make_temporary(bool exists, unsigned permissions) {
-    constexpr int kAttempts = 100;
-    for (int attempt = 0; attempt < kAttempts && !file_.is_open(); ++attempt) {
-        std::string name = target_ + '.' + random_letters();
-        const Reason reason = platform::create_file(name, exists, file_);
-        if (reason == 0) {
-            temporary_ = std::move(name); // the destructor removes it if the next call throws
-            slot_ = register_temporary(temporary_);
-        } else if (reason != EEXIST) {
-            return failure(reason);
-        }
+    std::string name;
+    if (const Reason reason = create_temporary_file(target_, exists, name, file_); reason != 0) {
+        return failure(reason);
     }
-    if (!file_.is_open()) {
-        return failure(EEXIST);
-    }
+    temporary_ = std::move(name); // the destructor removes it if the next call throws
+    slot_ = register_temporary(temporary_);
     if (exists) {
         if (const Reason reason = platform::set_permissions(file_, permissions); reason != 0) {
             return failure(reason);
@@ -261,6 +248,13 @@ Result<Output> Output::open(const std::string& path, const Console& console) {
         if (!refusal.empty()) {
             return Error{fmt::format("cannot write `{}`: {}", path, refusal)};
         }
+    }
+    return reopen(path, console);
+}
+
+Result<Output> Output::open_one_of_many(const std::string& path, const Console& console) {
+    if (console.io().files != nullptr && console.io().files->is_read(path)) {
+        return Error{fmt::format("cannot write `{}`: {}", path, kIsInput)};
     }
     return reopen(path, console);
 }
@@ -337,6 +331,9 @@ Result<void> Output::finish(Storing storing) {
     // After a power failure the name must not stand for a file whose bytes were never stored.
     const bool stores = storing == Storing::BeforeNaming && !temporary_.empty();
     Reason reason = stores ? platform::store(file_) : 0;
+    if (reason == 0 && !temporary_.empty()) {
+        reason = platform::keep_lock(file_, temporary_, lock_);
+    }
     if (const Reason closed = file_.close(); reason == 0) {
         reason = closed;
     }
@@ -359,6 +356,7 @@ Result<void> Output::commit() {
         return failure(reason);
     }
     forget_temporary();
+    lock_ = platform::File();
     return {};
 }
 
@@ -373,6 +371,7 @@ Result<void> Output::publish() {
         return done;
     }
     if (platform::exchange_files(temporary_, target_) == 0) {
+        lock_ = platform::File(); // the file has its name
         state_ = State::Exchanged;
         return {};
     }

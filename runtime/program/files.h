@@ -72,6 +72,10 @@ public:
     /// Opens `path`; `-` is standard output. An Error for a file that the run has read, or has
     /// opened before (Io::files).
     [[nodiscard]] static Result<Output> open(const std::string& path, const Console& console);
+    /// Opens a file of a set whose paths all differ. Does not remember its path, so that the set
+    /// may be large. An Error for a file that the run has read.
+    [[nodiscard]] static Result<Output> open_one_of_many(const std::string& path,
+                                                         const Console& console);
     /// Opens a file to replace it, even if the run has read it.
     [[nodiscard]] static Result<Output> reopen(const std::string& path, const Console& console);
     /// Opens a file that must not exist, not even as a dangling link: an Error here or at commit().
@@ -107,8 +111,10 @@ private:
     std::string target_; // path_ with symbolic links resolved
     /// Temporary path in the folder of target_; empty for devices and pipes.
     std::string temporary_;
-    TemporaryName* slot_ = nullptr;    // registration of temporary_; null: not registered
-    platform::File file_;              // not open if it is standard output or finished
+    TemporaryName* slot_ = nullptr; // registration of temporary_; null: not registered
+    platform::File file_;           // not open if it is standard output or finished
+    /// Keeps the file that has the name temporary_ locked, from finish() on.
+    platform::File lock_;
     bool is_finished_ = false;         // finish() has been called
     bool must_be_new_ = false;         // made by create()
     State state_ = State::Unpublished; // set by commit_all()

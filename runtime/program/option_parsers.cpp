@@ -351,6 +351,13 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
     UsageError usage;
     usage.help = fmt::format("`{} --help` lists the options", command);
     usage.message = error.what();
+    // CLI11 writes `--seed: At Most 1 required but received 2`.
+    constexpr std::string_view kRepeated = ": At Most 1 required but received ";
+    if (const std::size_t at = usage.message.find(kRepeated); at != std::string::npos) {
+        usage.message =
+            fmt::format("{} is given {} times, and may be given once", usage.message.substr(0, at),
+                        usage.message.substr(at + kRepeated.size()));
+    }
     const auto has_code = [&](CLI::ExitCodes code) {
         return error.get_exit_code() == static_cast<int>(code);
     };
@@ -364,6 +371,11 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
         const std::string extra = has_code(CLI::ExitCodes::RequiredError) ? *unknown
                                   : extras.empty()                        ? std::string()
                                                                           : extras.front();
+        if (extra == "--" && app.get_subcommands({}).empty()) { // behind a command
+            usage.message = "behind `--` stand names of files only";
+            usage.help = "options stand before it";
+            return usage;
+        }
         usage.message = extra.starts_with('-') ? fmt::format("unknown option `{}`", extra)
                                                : fmt::format("unexpected argument `{}`", extra);
         std::vector<std::string> names;

@@ -25,11 +25,17 @@ void RunFiles::note_read(const std::string& path) {
     read_.insert(std::move(whole));
 }
 
+bool RunFiles::is_read(const std::string& path) {
+    const std::string whole = resolved(path);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return read_.count(whole) != 0;
+}
+
 std::string_view RunFiles::begin_write(const std::string& path) {
     std::string whole = resolved(path);
     const std::lock_guard<std::mutex> lock(mutex_);
     if (read_.count(whole) != 0) {
-        return "it is an input of this command";
+        return kIsInput;
     }
     return written_.insert(std::move(whole)).second ? "" : "it is another output of this command";
 }

@@ -14,8 +14,11 @@ namespace {
 
 /// Parses `column,row,size`.
 Result<ForestTile> parse_tile(const std::string& text) {
-    const Error wrong{
-        fmt::format("`{}` is not column,row,size: two whole numbers and metres", text)};
+    constexpr std::int64_t kMaxTileIndex = 1'000'000;
+    constexpr float kMaxTileSize = 1e6F; // m
+    const Error wrong{fmt::format("`{}` is not column,row,size: two whole numbers from -{} to {} "
+                                  "and metres up to {:g}",
+                                  text, kMaxTileIndex, kMaxTileIndex, kMaxTileSize)};
     ForestTile tile;
     const char* at = text.data();
     const char* const end = at + text.size();
@@ -27,8 +30,7 @@ Result<ForestTile> parse_tile(const std::string& text) {
         at = next + 1;
     }
     const Result<float> size =
-        parse_number(std::string_view(at, static_cast<std::size_t>(end - at)), 0.0F, 1e6F);
-    constexpr std::int64_t kMaxTileIndex = 1'000'000;
+        parse_number(std::string_view(at, static_cast<std::size_t>(end - at)), 0.0F, kMaxTileSize);
     if (!size || size.value() == 0.0F || tile.column < -kMaxTileIndex ||
         tile.column > kMaxTileIndex || tile.row < -kMaxTileIndex || tile.row > kMaxTileIndex) {
         return wrong;

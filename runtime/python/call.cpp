@@ -2,6 +2,8 @@
 #include "runtime/python/call.h"
 
 #include <limits>
+#include <string_view>
+#include <utility>
 
 namespace lsys_python {
 
@@ -37,6 +39,30 @@ py::object error_class(lsys::Status status) {
     return errors.attr("LsysError");
 }
 
+} // namespace
+
+std::string with_argument_names(std::string text) {
+    constexpr std::pair<std::string_view, std::string_view> kNames[] = {
+        {"`Limits::max_modules = ", "`max_modules="},
+        {"`Limits::max_modules`", "`max_modules=`"},
+        {"`Limits::max_bytes`", "`max_bytes=`"},
+        {"`Policy::max_output`", "`max_output=`"},
+        {"`Policy::max_seconds`", "`max_seconds=`"},
+        {"`MeshOptions::sides`", "`sides=`"},
+        {"`GrammarOptions::generations = ", "`generations="},
+        {"`GrammarOptions::generations`", "`generations=`"},
+    };
+    for (const auto& [member, argument] : kNames) {
+        for (std::size_t at = text.find(member); at != std::string::npos;
+             at = text.find(member, at + argument.size())) {
+            text.replace(at, member.size(), argument);
+        }
+    }
+    return text;
+}
+
+namespace {
+
 /// The text of an exception: with source lines if a message has a place, else only the messages,
 /// their notes and help.
 std::string text_of(const lsys::Messages& messages) {
@@ -55,7 +81,7 @@ std::string text_of(const lsys::Messages& messages) {
         }
     }
     text.resize(text.find_last_not_of('\n') + 1);
-    return text;
+    return with_argument_names(std::move(text));
 }
 
 lsys::MeshMethod method_of(const std::string& name) {
@@ -187,6 +213,16 @@ T whole_number(const std::string& name, const py::handle& value) {
     }
 }
 
+/// A value of type T. Raises TypeError, naming the argument, for values of other types.
+template <typename T>
+T typed(const std::string& name, const py::handle& value, const char* kind) {
+    try {
+        return value.cast<T>();
+    } catch (const py::cast_error&) {
+        throw py::type_error(name + " is " + kind);
+    }
+}
+
 } // namespace
 
 CallOptions options_of(const py::kwargs& arguments) {
@@ -200,11 +236,11 @@ CallOptions options_of(const py::kwargs& arguments) {
         } else if (name == "max_bytes") {
             options.max_bytes = whole_number<std::uint64_t>(name, value);
         } else if (name == "untrusted") {
-            options.policy.untrusted = value.cast<bool>();
+            options.policy.untrusted = typed<bool>(name, value, "True or False");
         } else if (name == "root") {
             options.policy.root = py::str(py::module_::import("os").attr("fspath")(value));
         } else if (name == "max_seconds") {
-            options.policy.max_seconds = value.cast<double>();
+            options.policy.max_seconds = typed<double>(name, value, "a number of seconds");
         } else if (name == "max_output") {
             options.policy.max_output = whole_number<std::uint64_t>(name, value);
         } else if (name == "progress") {

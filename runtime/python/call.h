@@ -76,6 +76,9 @@ void add_environments(const py::dict& functions, lsys::Host& host);
 [[nodiscard]] lsys::FileReceiver receiver_of(const py::function& receive);
 /// Raises the exception for a call that has failed.
 [[noreturn]] void raise(lsys::Status status, const lsys::Messages& messages);
+/// A help text of the library with the names of Python's arguments: `max_bytes=` for
+/// `Limits::max_bytes`.
+[[nodiscard]] std::string with_argument_names(std::string text);
 /// Reports the warnings as warnings of Python.
 void warn(const lsys::Messages& messages);
 

@@ -46,7 +46,14 @@ void bind_messages(py::module_& module) {
         .def_readonly("label", &lsys::Diagnostic::label)
         .def_readonly("labels", &lsys::Diagnostic::labels)
         .def_readonly("notes", &lsys::Diagnostic::notes)
-        .def_readonly("help", &lsys::Diagnostic::help)
+        .def_property_readonly("help",
+                               [](const lsys::Diagnostic& diagnostic) {
+                                   std::vector<std::string> help;
+                                   for (const std::string& text : diagnostic.help) {
+                                       help.push_back(with_argument_names(text));
+                                   }
+                                   return help;
+                               })
         .def_readonly("fixes", &lsys::Diagnostic::fixes)
         .def("__repr__", [](const lsys::Diagnostic& diagnostic) {
             return "<Diagnostic " + diagnostic.code + ": " + diagnostic.message + ">";

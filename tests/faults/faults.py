@@ -7,6 +7,7 @@ pthread_create() fails once (failing_calls.cpp). After each run:
 - the program ended by itself, with its usual exit status or, with a message, with 2 or 3 (3 where memory ran out);
 - with the usual status all output has the usual bytes, else all files are as before, or all are complete;
 - no temporary file remains.
+A command that was killed by SIGKILL may leave temporary files; the same command, run again, removes them.
 Another run records in which order files are written, stored (fsync, syncfs) and renamed. If the power fails, a file may have
 its new name and lack what was not stored before, so each file must be stored between its last write and its rename,
 and no file may be written under its own name.
@@ -19,6 +20,7 @@ import argparse
 import errno
 import os
 import random
+import re
 import shutil
 import signal
 import struct
@@ -47,7 +49,7 @@ MOST_ALLOCATIONS = 8000  # of each command, from its first one
 TIME_LIMIT = 120.0  # seconds; a run takes less than one
 FAILED = {2, 3}  # exit statuses of a command that reports a fault
 NO_MEMORY = b"cannot allocate memory"  # the text of ENOMEM, where a function of the C library needs memory
-TEMPORARY_LETTERS = 6  # at least; a temporary file is named after its file, with a point and letters
+TEMPORARY = re.compile(r"\.lsys-[a-z0-9]+\.tmp$")  # end of the name of a temporary file; before it, the file's name
 
 TREE = """#n = 6;
 #param ratio 0.8 {0.5, 1};
@@ -213,8 +215,13 @@ class Bench:
         process.send_signal(signal.SIGKILL)
         out, err = process.communicate()
         outcome = Outcome(process.returncode, out, err, files_in(folder))
+        for name, text in command.files.items():  # a command may have replaced its input
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        self.start(command, folder, "", "").communicate()
+        after = files_in(folder)
         shutil.rmtree(folder)
-        return before, outcome
+        return before, outcome, after
 
 
 def mistakes_after_fault(command, call, usual, before, outcome):
@@ -276,8 +283,7 @@ def mistakes_of_order(calls, files):
 
 def is_temporary(name, files):
     """Whether `name` is that of a temporary file of one of `files`."""
-    base, _, letters = name.rpartition(".")
-    return base in files and len(letters) >= TEMPORARY_LETTERS and letters.isalnum()
+    return TEMPORARY.search(name) is not None and TEMPORARY.sub("", name) in files
 
 
 def difference(expected, found):
@@ -313,6 +319,7 @@ def main():
     generator = random.Random(options.seed)
     injected = dict.fromkeys([*CALLS, "kill"], 0)
     failures = 0
+    left = 0  # temporary files of killed commands
     try:
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             for command in commands():
@@ -343,15 +350,21 @@ def main():
                     bench.run(command, old)
                     length = time.monotonic() - begin
                     for _ in range(options.kills):
-                        before, outcome = bench.kill(command, old, generator.uniform(0, length))
+                        before, outcome, after = bench.kill(command, old, generator.uniform(0, length))
                         injected["kill"] += 1
                         may_remain = lambda name: is_temporary(name, usual.files)
                         for mistake in incomplete_files(usual, before, outcome, may_remain):
                             print(f"{command.name}: killed: {mistake}")
                             failures += 1
+                        left += sum(is_temporary(name, usual.files) for name in outcome.files)
+                        if after != usual.files:
+                            print(f"{command.name}: run again after it was killed: "
+                                  f"{difference(usual.files, after)}")
+                            failures += 1
     finally:
         shutil.rmtree(bench.root, ignore_errors=True)
-    print("injected: " + ", ".join(f"{name} {count}" for name, count in injected.items()) + f"; failures: {failures}")
+    print("injected: " + ", ".join(f"{name} {count}" for name, count in injected.items()) +
+          f"; temporary files left by kills: {left}; failures: {failures}")
     return 1 if failures or not sum(injected.values()) else 0
 
 

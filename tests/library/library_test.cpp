@@ -66,6 +66,27 @@ TEST_CASE("a text is compiled and derived") {
     CHECK(word->kinds().at(codes[1]).name == "[");
 }
 
+TEST_CASE("messages about limits name members of this interface") {
+    const auto doubled = lsys::compile_text("#n = 30; #w : A; #p : A : * : A A;");
+    REQUIRE(doubled);
+    lsys::Project project;
+    project.limits.max_modules = 100;
+    const auto word = lsys::derive(*doubled, {}, project);
+    REQUIRE(word.status() == lsys::Status::Limit);
+    const std::string text = word.messages().text();
+    CAPTURE(text);
+    CHECK(text.find("`Limits::max_modules = ") != std::string::npos);
+    CHECK(text.find("--max-modules") == std::string::npos);
+    project.limits = {};
+    project.limits.max_bytes = 1000;
+    const auto large = lsys::derive(*doubled, {}, project);
+    REQUIRE(large.status() == lsys::Status::Limit);
+    const std::vector<lsys::Diagnostic>& all = large.messages().all();
+    REQUIRE_FALSE(all.empty());
+    REQUIRE_FALSE(all.back().help.empty());
+    CHECK(all.back().help.back().find("`Limits::max_bytes`") != std::string::npos);
+}
+
 TEST_CASE("modules of a word have names and parameters") {
     const auto grammar = lsys::compile_text(kParametric);
     REQUIRE(grammar);

@@ -19,8 +19,7 @@ MPIRUN, LSC_MPI, LSC = sys.argv[1:4]
 TREE = """#n = 3; #set angle 25; #w : !(0.2) F(2) X;
 #p : X : * : !(0.08) F({0.5, 0.8}) [ + X ] /(120) [ & X ];
 """
-# Names of unfinished files: the final name, a dot and random characters.
-TEMPORARY = re.compile(r"\.(glb|json|bin|png)\.[A-Za-z0-9]+$")
+TEMPORARY = re.compile(r"\.lsys-[a-z0-9]+\.tmp$")  # names of unfinished files
 # Seconds after which a job counts as hanging.
 PATIENCE = 120
 

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import types
 import unittest
 import unittest.mock
@@ -203,6 +204,16 @@ class Errors(unittest.TestCase):
         with self.assertRaises(lsys.LimitError):
             lsys.compile(text=RANDOM).derive(max_modules=1000)
 
+    def test_limits_are_named_by_arguments(self):
+        grammar = lsys.compile(text=RANDOM)
+        for options in ({"max_modules": 1000}, {"max_bytes": 1000}):
+            with self.assertRaises(lsys.LimitError) as caught:
+                grammar.derive(**options)
+            texts = [str(caught.exception)] + [text for one in caught.exception.diagnostics for text in one.help]
+            for text in texts:
+                self.assertIn(f"`{next(iter(options))}=", text)
+                self.assertNotIn("`--", text)
+
     def test_values_out_of_range(self):
         grammar = lsys.compile(text=TREE)
         for height in (-1, 0, 1e7, float("nan"), float("inf")):
@@ -219,11 +230,30 @@ class Errors(unittest.TestCase):
                 grammar.derive(**options)
         with self.assertRaisesRegex(TypeError, "threads is a whole number"):
             grammar.derive(threads=None)
+        for options in ({"max_seconds": None}, {"max_seconds": "1"}, {"untrusted": "yes"}):
+            with self.assertRaisesRegex(TypeError, f"{next(iter(options))} is"):
+                grammar.derive(**options)
 
     def test_no_objects_without_values(self):
         for name in ("Grammar", "Word", "Plant", "Mesh", "Instances"):
             with self.assertRaisesRegex(TypeError, "has no constructor"):
                 getattr(lsys, name).__new__(getattr(lsys, name))
+
+    def test_interrupt_of_compile(self):
+        text = "#n = 1; #w : F" + "(1) F [ + F ]" * 3_000_000 + ";"
+        interrupted = 0.0
+
+        def interrupt():
+            nonlocal interrupted
+            interrupted = time.monotonic()
+            os.kill(os.getpid(), signal.SIGINT)
+
+        timer = threading.Timer(0.3, interrupt)
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            lsys.compile(text=text)
+        self.assertLess(time.monotonic() - interrupted, 2)  # about 0.1 s on an idle machine
+        timer.join()
 
     def test_interrupt(self):
         grammar = lsys.compile(text=RANDOM)

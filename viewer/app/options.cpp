@@ -2,6 +2,7 @@
 #include "viewer/app/options.h"
 
 #include "runtime/pipeline/forest.h"
+#include "runtime/platform/file.h"
 #include "runtime/program/arguments.h"
 #include "runtime/program/option_parsers.h"
 #include "runtime/program/policy_options.h"
@@ -66,6 +67,9 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_option("--screenshot", options.screenshot,
                    "Write a PNG instead of opening a window; no display is needed")
         ->type_name("FILE")
+        ->check([](const std::string& file) {
+            return std::string(file.empty() ? "the name of the file is empty" : "");
+        })
         ->group("Picture");
     app.add_option_function<std::string>(
            "--size",
@@ -264,6 +268,11 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     app.add_option("--shaders", options.shaders,
                    "Read shaders from this folder instead of the built-in ones")
         ->type_name("FOLDER")
+        ->check([](const std::string& folder) {
+            return platform::facts_of(folder).type == platform::FileType::Directory
+                       ? std::string()
+                       : fmt::format("there is no folder `{}`", folder);
+        })
         ->group("Picture");
 }
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace lsys::view {
 
@@ -111,12 +112,18 @@ Result<Camera> parse_camera(std::string_view text, const Camera& otherwise) {
     Camera camera = otherwise;
     glm::dvec3 eye = eye_of(otherwise);
     glm::dvec3 target = otherwise.origin + glm::dvec3(otherwise.target);
+    std::vector<std::string_view> known;
     for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
         const std::string_view value = take_word(text);
+        if (std::find(known.begin(), known.end(), word) != known.end()) {
+            return Error{fmt::format("a camera has one `{}`", word)};
+        }
+        known.push_back(word);
         if (word == "eye" || word == "target") {
             if (!parse_place(value, word == "eye" ? eye : target)) {
                 return Error{
-                    fmt::format("a camera's {} is X,Y,Z in metres, not `{}`", word, value)};
+                    fmt::format("a camera's {} is X,Y,Z, each at most {:g} metres, not `{}`", word,
+                                kMaxDistance, value)};
             }
         } else if (word == "fov") {
             if (!parse_number(value, camera.field_of_view) || camera.field_of_view < kMinField ||

@@ -3,6 +3,7 @@
 
 #include "compiler/bytecode/instructions.h"
 #include "compiler/bytecode/verify.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/contract.h"
 
 #include <algorithm>
@@ -150,6 +151,7 @@ void CodeEmitter::leaf_or_operation(const Value& value, bool swapped, std::uint3
 }
 
 void CodeEmitter::expression(ValueId root, std::uint32_t site) {
+    stop_if_cancelled();
     frames_.push_back({root, Step::Operands, 0});
     while (!frames_.empty()) {
         const Frame frame = frames_.back();

@@ -5,6 +5,7 @@
 #include "compiler/bytecode/instructions.h"
 #include "compiler/resolve/impl/folding_faults.h"
 #include "compiler/resolve/known_words.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/contract.h"
 
 #include <fmt/format.h>
@@ -194,6 +195,7 @@ ValueId ExpressionResolver::resolve_name(NameId name, SourceSpan span, Expressio
 }
 
 void ExpressionResolver::visit(ExpressionPlace place) {
+    stop_if_cancelled();
     Frame& frame = frames_.back();
     const Expression& expression = resolution_.ast.expression(frame.expression);
     if (frame.next < operand_count(expression)) {

@@ -3,6 +3,7 @@
 // inlined.
 #include "compiler/bytecode/distributions.h"
 #include "compiler/resolve/impl/expressions.h"
+#include "grammar/base/cancellation.h"
 
 #include <fmt/format.h>
 
@@ -257,6 +258,7 @@ bool ExpressionResolver::draws(ValueId root) const {
 ValueId ExpressionResolver::expanded(const UserFunction& function,
                                      std::span<const ValueId> arguments,
                                      SourceSpan span) {
+    stop_if_cancelled();
     std::vector<std::pair<std::uint32_t, ValueId>> slots; // new slots with their values
     std::vector<std::uint32_t> slot_of(arguments.size(), kNone);
     for (std::size_t i = 0; i < arguments.size(); ++i) {

@@ -8,6 +8,7 @@
 %option prefix="cpfg_yy" extra-type="lsys::CpfgSession*"
 
 %{
+#include "grammar/base/cancellation.h"
 #include "grammar/base/scanner_memory.h"
 #include "cpfg/parser.h"
 #include "grammar/dialects/cpfg/session.h"
@@ -16,6 +17,7 @@
     int cpfg_yylex(lsys::cpfg_grammar::Parser::value_type* value, lsys::SourceSpan* location,      \
                    lsys::CpfgSession& session, void* yyscanner)
 #define YY_USER_ACTION                                                                             \
+    lsys::stop_if_cancelled();                                                                     \
     *location = session.take(static_cast<std::uint32_t>(yyleng));
 
 using Token = lsys::cpfg_grammar::Parser::token;

@@ -12,12 +12,14 @@
 %x COMMENT
 
 %{
+#include "grammar/base/cancellation.h"
 #include "grammar/base/scanner_memory.h"
 #include "grammar/dialects/houdini/session.h"
 #include "houdini/parser.h"
 
 #define YY_DECL int houdini_yylex(lsys::SourceSpan* location, lsys::HoudiniSession& session, void* yyscanner)
 #define YY_USER_ACTION                                                                             \
+    lsys::stop_if_cancelled();                                                                     \
     *location = session.take(static_cast<std::uint32_t>(yyleng));
 
 using Token = lsys::houdini_grammar::Parser::token;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/dialects/impl/line_reader.h"
 
+#include "grammar/base/cancellation.h"
 #include "grammar/dialects/impl/syntax_message.h"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ std::string_view LineReader::ahead() {
 }
 
 LinePiece LineReader::next(PieceLength length) {
+    stop_if_cancelled();
     const std::string_view text = ahead();
     if (text.empty()) {
         return piece(std::exchange(ended_, true) ? LinePieceKind::TextEnd : LinePieceKind::LineEnd,

@@ -2,9 +2,14 @@
 #include "runtime/languageserver/impl/workspace.h"
 
 #include "grammar/ast/include_chain.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/characters.h"
 #include "grammar/base/paths.h"
 #include "grammar/lsys/included_names.h"
+#include "runtime/base/deadline.h"
+#include "runtime/base/size_text.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -197,7 +202,7 @@ std::shared_ptr<const IndexedGrammar> Workspace::parse(const std::string& root,
         return text;
     };
     const Result<std::string> text = record(root);
-    if (!text) {
+    if (!text || text.value().size() > host.max_document_bytes) {
         return nullptr;
     }
     grammar->is_lsys = is_lsys_text(root);
@@ -278,6 +283,11 @@ GrammarText Workspace::grammar_text(const Document& document, std::string& failu
         document.path, document.is_lsys ? std::string("lsys") : std::string(), host.project);
     if (read) {
         text = std::move(read.value());
+        if (text.bytes.size() > host.max_document_bytes) {
+            failure = fmt::format("a grammar of more than {} is not checked while it is edited; "
+                                  "`lsc check` checks it",
+                                  byte_size_text(host.max_document_bytes));
+        }
         return text;
     }
     for (const Message& message : read.messages().all()) {
@@ -295,6 +305,29 @@ GrammarOptions Workspace::options_of(const Document& document) const {
     return options;
 }
 
+std::string too_slow_message(double seconds) {
+    return fmt::format("this takes longer than {:g} s, the limit of the language server", seconds);
+}
+
+void Workspace::compile(const GrammarOptions& options, CheckedDocument& checked) const {
+    const Deadline deadline(host.max_seconds, host.project.host.cancelled, {});
+    const CancellationScope scope(deadline.stop());
+    try {
+        Result<CompiledText> compiled = compile_text(checked.path, checked.text, options,
+                                                     host.project.limits.max_modules, loader());
+        if (compiled) {
+            checked.compiled = std::move(compiled.value());
+        } else {
+            checked.failure = compiled.error().message;
+        }
+    } catch (const CompilationCancelled&) {
+        if (!deadline.has_passed()) {
+            throw; // the program ends
+        }
+        checked.failure = too_slow_message(host.max_seconds);
+    }
+}
+
 CheckedDocument Workspace::check_anew(const Document& document) const {
     CheckedDocument checked;
     checked.path = document.path;
@@ -302,13 +335,7 @@ CheckedDocument Workspace::check_anew(const Document& document) const {
     if (!checked.failure.empty()) {
         return checked;
     }
-    Result<CompiledText> compiled = compile_text(document.path, checked.text, options_of(document),
-                                                 host.project.limits.max_modules, loader());
-    if (!compiled) {
-        checked.failure = compiled.error().message;
-        return checked;
-    }
-    checked.compiled = std::move(compiled.value());
+    compile(options_of(document), checked);
     return checked;
 }
 
@@ -347,13 +374,7 @@ CheckedDocument Workspace::check_whole(const Document& document,
     if (!checked.failure.empty()) {
         return checked;
     }
-    Result<CompiledText> compiled =
-        compile_text(whole.path, checked.text, options, host.project.limits.max_modules, loader());
-    if (!compiled) {
-        checked.failure = compiled.error().message;
-        return checked;
-    }
-    checked.compiled = std::move(compiled.value());
+    compile(options, checked);
     checked.compiled.diagnostics.sort_by_place();
     return checked;
 }

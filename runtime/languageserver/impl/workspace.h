@@ -71,6 +71,9 @@ struct EditorFeatures {
     PositionEncoding encoding = PositionEncoding::Utf16;
 };
 
+/// The message about a document or a request that takes longer than `seconds`.
+[[nodiscard]] std::string too_slow_message(double seconds);
+
 /// The result of checking a document, and the file that was checked.
 struct CheckedDocument {
     std::string path; // path of the checked file
@@ -135,6 +138,8 @@ private:
     [[nodiscard]] GrammarOptions options_of(const Document& document) const;
     /// check() without the result of an earlier check.
     [[nodiscard]] CheckedDocument check_anew(const Document& document) const;
+    /// Compiles `checked.text`. Sets `checked.failure` if it cannot, or takes too long.
+    void compile(const GrammarOptions& options, CheckedDocument& checked) const;
     [[nodiscard]] FileLoader loader() const;
     [[nodiscard]] bool is_lsys_text(const std::string& path) const;
     /// Parses a file; null if it cannot be read.

@@ -176,11 +176,15 @@ void ShellProgram::end() {
         return;
     }
     close_descriptor(input_);
+    siginfo_t facts{};
+    const bool has_ended =
+        ::waitid(P_PID, static_cast<id_t>(process_), &facts, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+        facts.si_pid != 0;
     ::kill(-process_, SIGKILL);
     int ended = 0;
     while (::waitpid(process_, &ended, 0) < 0 && errno == EINTR) {
     }
-    if (exit_text_.empty()) {
+    if (exit_text_.empty() && has_ended) {
         exit_text_ = WIFEXITED(ended) ? "exit status " + std::to_string(WEXITSTATUS(ended))
                                       : "signal " + std::to_string(WTERMSIG(ended));
     }

@@ -259,6 +259,41 @@ Reason exchange_files(const std::string& one, const std::string& other) {
     return move_file(third, one, 0);
 }
 
+bool lock_new_file(const File& /*file*/) {
+    return true; // a file that create_file() has opened cannot be removed
+}
+
+Reason keep_lock(const File& /*file*/, const std::string& path, File& lock) {
+    // A file that is open, in whatever way, cannot be opened by remove_unlocked_file().
+    const HANDLE handle = ::CreateFileW(wide_text(path).c_str(), GENERIC_READ,
+                                        FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                                        nullptr, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (handle == INVALID_HANDLE_VALUE) {
+        lock = File();
+        return last_reason();
+    }
+    lock = File(::_open_osfhandle(reinterpret_cast<std::intptr_t>(handle), _O_RDONLY));
+    if (!lock.is_open()) {
+        ::CloseHandle(handle);
+        return EMFILE;
+    }
+    return 0;
+}
+
+void remove_unlocked_file(const std::string& path, WithoutLocks /*without_locks*/) {
+    // Without sharing the file opens only if nobody else has it open. It is removed by closing it.
+    const HANDLE handle =
+        ::CreateFileW(wide_text(path).c_str(), DELETE, 0, nullptr, OPEN_EXISTING,
+                      FILE_FLAG_DELETE_ON_CLOSE | FILE_FLAG_OPEN_REPARSE_POINT, nullptr);
+    if (handle != INVALID_HANDLE_VALUE) {
+        ::CloseHandle(handle);
+    }
+}
+
+std::size_t max_open_files() {
+    return 2048; // of _open(); the C library has room for 8192
+}
+
 std::uint64_t random_bits() {
     LARGE_INTEGER ticks{};
     ::QueryPerformanceCounter(&ticks);

@@ -13,6 +13,8 @@
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 using namespace lsys;
 using lsys::tests::read_text;
@@ -45,6 +47,60 @@ TEST_CASE("devices are written in place") {
     CHECK(write_file("/dev/full", "text", f.console).error().message ==
           "cannot write `/dev/full`: no space left on device");
     CHECK(write_file("/dev/null", "text", f.console).ok());
+}
+
+TEST_CASE("no writer removes the temporary file of another one") {
+    PosixFixture f;
+    constexpr int kWriters = 6;
+    std::atomic<int> failures{0};
+    std::vector<std::thread> writers;
+    for (int writer = 0; writer < kWriters; ++writer) {
+        writers.emplace_back([&f, &failures, writer] {
+            std::ostringstream out;
+            std::ostringstream err;
+            const Console console{{f.in, out, err}, {}};
+            const std::string text(1000, static_cast<char>('a' + writer));
+            for (int i = 0; i < 300; ++i) {
+                std::vector<Output> outputs; // committed by an exchange of names every second time
+                Result<Output> output = Output::open(f.folder / "x", console);
+                bool is_written = output.ok() && output.value().write(text).ok();
+                if (is_written && i % 2 == 0) {
+                    outputs.push_back(std::move(output.value()));
+                    is_written = commit_all(outputs).ok();
+                } else if (is_written) {
+                    is_written = output.value().commit().ok();
+                }
+                failures += is_written ? 0 : 1;
+            }
+        });
+    }
+    for (std::thread& writer : writers) {
+        writer.join();
+    }
+    CHECK(failures == 0);
+    const std::string text = read_text(f.folder / "x");
+    CHECK(text.size() == 1000);
+    CHECK(text.find_first_not_of(text[0]) == std::string::npos);
+    // A writer leaves a file that another one has locked just now; the next run removes it.
+    CHECK(write_file(f.folder / "x", "last", f.console).ok());
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry :
+         std::filesystem::directory_iterator(f.folder.path())) {
+        ++count;
+    }
+    CHECK(count == 1);
+}
+
+TEST_CASE("a temporary file that is a link or a pipe is left") {
+    PosixFixture f;
+    write_text(f.folder / "precious", "text");
+    REQUIRE(::symlink("precious", (f.folder / "x.lsys-0.tmp").c_str()) == 0);
+    REQUIRE(::mkfifo((f.folder / "x.lsys-1.tmp").c_str(), 0600) == 0);
+    CHECK(write_file(f.folder / "x", "first", f.console).ok());
+    CHECK(std::filesystem::is_symlink(f.folder / "x.lsys-0.tmp"));
+    CHECK(std::filesystem::is_fifo(f.folder / "x.lsys-1.tmp"));
+    CHECK(read_text(f.folder / "precious") == "text");
+    CHECK(read_text(f.folder / "x") == "first");
 }
 
 TEST_CASE("a file that must be new replaces no dangling link") {

@@ -93,6 +93,43 @@ TEST_CASE("a written file appears only when it is complete") {
     CHECK(f.file_count() == 1);
 }
 
+TEST_CASE("temporary files of ended processes are removed by the next run") {
+    Fixture f;
+    Result<Output> sibling = Output::open(f.folder / "x", f.console); // as if of another process
+    REQUIRE(sibling.ok());
+    REQUIRE(sibling.value().write("sibling").ok());
+    REQUIRE(sibling.value().finish().ok()); // closed, and without its name yet
+    CHECK(std::filesystem::exists(f.folder / "x.lsys-0.tmp"));
+    for (const char* const left : {"x.lsys-1.tmp", "x.lsys-3.tmp"}) {
+        write_text(f.folder / left, "incomplete");
+    }
+    std::filesystem::create_directory(path_of(f.folder / "x.lsys-2.tmp"));
+    write_text(f.folder / "x.backup", "of the user");
+    write_text(f.folder / "y.lsys-0.tmp", "of another output");
+    CHECK(write_file(f.folder / "x", "first", f.console).ok());
+    CHECK(f.file_count() == 5); // x, the file of the sibling, the folder and the last two
+    CHECK(read_text(f.folder / "x") == "first");
+    CHECK(sibling.value().commit().ok());
+    CHECK(read_text(f.folder / "x") == "sibling");
+    CHECK(f.file_count() == 4);
+}
+
+TEST_CASE("any number of writers may write one file at once") {
+    Fixture f;
+    std::vector<Output> writers;
+    for (int i = 0; i < 12; ++i) {
+        Result<Output> output = Output::open(f.folder / "x", f.console);
+        REQUIRE(output.ok());
+        REQUIRE(output.value().write(std::to_string(i)).ok());
+        writers.push_back(std::move(output.value()));
+    }
+    for (Output& writer : writers) {
+        CHECK(writer.commit().ok());
+    }
+    CHECK(read_text(f.folder / "x") == "11");
+    CHECK(f.file_count() == 1);
+}
+
 TEST_CASE("a file that must be new replaces no other") {
     Fixture f;
     write_text(f.folder / "old", "first");

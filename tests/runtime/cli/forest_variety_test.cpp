@@ -89,6 +89,18 @@ TEST_CASE("if --variety and --memory contradict each other, the message has the 
     CHECK(shape_of(forest(base, {"--memory", memory})).first >= 270);
 }
 
+TEST_CASE("if --memory is too small, the message has the least memory that is enough") {
+    const ScratchFolder folder;
+    write_text(folder / "a.lsys", "#n = 3; #w : A(2);\n"
+                                  "#p : A(x) : * : F(x) [ +({10, 40}) A(x/2) ] A(x);\n");
+    const std::vector<std::string> base{folder / "a.lsys", "--count", "1000", "--stats", "-q"};
+    const LscRun refused = forest(base, {"--memory", "1"});
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find("--memory 1: no choice") != std::string::npos);
+    const std::string memory = between(refused.err, "`--memory ", "` is the minimum");
+    CHECK(forest(base, {"--memory", memory}).status == 0);
+}
+
 TEST_CASE("the option --variety is refused for a system without chance") {
     const ScratchFolder folder;
     write_text(folder / "fixed.lsys", "#n = 3; #w : A; #p : A : * : F[+A][-A];");

@@ -11,10 +11,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <new>
 #include <sstream>
 #include <streambuf>
 #include <string>
+#include <string_view>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -100,6 +102,24 @@ TEST_CASE("no output replaces an input or another output") {
         run_lsc({"dump", grammar, "--steps", "1", "--save-state", both, "-o", both}, "");
     CHECK(twice.status == 2);
     CHECK(twice.err.find("it is another output of this command") != std::string::npos);
+}
+
+TEST_CASE("messages about options name the range, and what is wrong") {
+    const auto has = [](std::initializer_list<const char*> arguments, std::string_view message) {
+        const LscRun run = run_lsc({arguments.begin(), arguments.end()}, "");
+        CAPTURE(run.err);
+        CHECK(run.status == 2);
+        CHECK(run.err.find(message) != std::string::npos);
+    };
+    has({"forest", "a.lsys", "-o", "a.glb", "--tile", "2147483647,1,100"},
+        "`2147483647,1,100` is not column,row,size: two whole numbers from -1000000 to 1000000 and "
+        "metres up to 1e+06");
+    has({"tiles", "a.lsys", "-o", "a", "--part", "1/99999999999"},
+        "is not I/N, with I from 1 to N and N up to 1000000");
+    has({"dump", "a.lsys", "-n", "1", "-n", "2"},
+        "--generations is given 2 times, and may be given once");
+    has({"check", "--diff", "a.lsys"}, "--diff requires --fix");
+    has({"export", "--", "-a.lsys", "-o", "a.glb"}, "behind `--` stand names of files only");
 }
 
 TEST_CASE("a file name is no part of an imported grammar") {

@@ -108,7 +108,7 @@ TEST_CASE("the parts of a tileset together are the tileset") {
     CHECK(files_of(folder.path() / "parts") == whole);
     const LscRun wrong = write_tiles(folder, "parts", {"--part", "4/3"});
     CHECK(wrong.status == 2);
-    CHECK(wrong.err.find("`4/3` is not I/N, with I from 1 to N") != std::string::npos);
+    CHECK(wrong.err.find("`4/3` is not I/N, with I from 1 to N and N") != std::string::npos);
 }
 
 TEST_CASE("tiles are resumed by --resume: the files that are missing, and no others") {

@@ -25,7 +25,10 @@ public:
     explicit Editor(Json capabilities) : Editor(std::move(capabilities), {}) {}
     /// `files`: the texts of files on disk, by absolute path. The editor has opened the folder
     /// `/p`.
-    Editor(Json capabilities, std::map<std::string, std::string> files)
+    /// `change_host`: changes the host before the server is made; may be null.
+    Editor(Json capabilities,
+           std::map<std::string, std::string> files,
+           void (*change_host)(LanguageServerHost& host) = nullptr)
         : files_(std::make_shared<std::map<std::string, std::string>>(std::move(files))) {
         LanguageServerHost host;
         host.version = "1";
@@ -56,6 +59,9 @@ public:
         };
         host.explain = [](std::string_view code) { return "text of " + std::string(code); };
         host.explanation_uri = [](std::string_view code) { return "doc:" + std::string(code); };
+        if (change_host != nullptr) {
+            change_host(host);
+        }
         server_ = std::make_unique<LanguageServer>(std::move(host));
         answer =
             request("initialize",

@@ -90,6 +90,39 @@ TEST_CASE("messages that are no requests get errors, and the server goes on") {
     CHECK(code_of(answers(server, {deep}).at(0)) == -32600);
 }
 
+TEST_CASE("a document that is too large gets a message, and the server goes on") {
+    Editor editor(kNoFeatures, {},
+                  [](lsys::LanguageServerHost& host) { host.max_document_bytes = 1000; });
+    const std::string small = "#n = 1;\n#w : F(1);\n";
+    editor.open(kTree, small + std::string(1000, ' '));
+    const Json& found = editor.diagnostics.at(Editor::uri(kTree));
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].at("message").get<std::string>().starts_with("a grammar of more than 1000 B"));
+    CHECK(editor.request("textDocument/hover", Editor::at(kTree, 1, 5)).is_null());
+    editor.change(kTree, small);
+    CHECK(editor.diagnostics.at(Editor::uri(kTree)).empty());
+}
+
+TEST_CASE("a document that takes too long gets a message, and the server goes on") {
+    Editor editor(kNoFeatures, {}, [](lsys::LanguageServerHost& host) { host.max_seconds = 0.01; });
+    std::string text = "#n = 1;\n#function f0(x) x + 1;\n"; // f16 expands to 65,536 additions
+    for (int i = 1; i <= 16; ++i) {
+        const std::string earlier = "f" + std::to_string(i - 1) + "(x)";
+        text += "#function f" + std::to_string(i) + "(x) " + earlier + " + " + earlier + ";\n";
+    }
+    text += "#w : F(1);\n";
+    for (int i = 0; i < 30; ++i) {
+        text += "#p" + std::to_string(i) + " : A" + std::to_string(i) + "(x) : * : F(f16(x));\n";
+    }
+    editor.open(kTree, text);
+    const Json& found = editor.diagnostics.at(Editor::uri(kTree));
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].at("message") ==
+          "this takes longer than 0.01 s, the limit of the language server");
+    editor.change(kTree, "#n = 1;\n#w : F(1);\n");
+    CHECK(editor.diagnostics.at(Editor::uri(kTree)).empty());
+}
+
 TEST_CASE("a cancelled request is not run") {
     Editor editor(kNoFeatures);
     editor.send_all(

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 using namespace lsys;
@@ -30,6 +32,23 @@ TEST_CASE("a limit is predicted from the first generation over it on") {
     CHECK(report->modules == 15);
     CHECK(report->predicted_modules == 31);
     CHECK(limit(bytecode, 4'000'000'000, 15));
+}
+
+TEST_CASE("a limit is predicted for counts beyond 2^64, whatever the limit is") {
+    test::BytecodeBuilder builder;
+    builder.axiom("A").production("p : A : * : A A");
+    const Bytecode bytecode = builder.build();
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    CHECK_FALSE(limit(bytecode, 63, kMost));
+    const std::optional<LimitReport> report = limit(bytecode, 70, kMost);
+    REQUIRE(report);
+    CHECK(report->generation == 63);
+    CHECK(report->modules == std::uint64_t{1} << 63);
+    Limits limits;
+    limits.max_modules = kMost;
+    REQUIRE(predict_counts(bytecode, 63, limits));
+    CHECK(predict_counts(bytecode, 63, limits)->back() == std::uint64_t{1} << 63);
+    CHECK_FALSE(predict_counts(bytecode, 64, limits));
 }
 
 TEST_CASE("no limit is predicted for words that never grow") {

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <string>
+#include <thread>
 #include <utility>
 
 using namespace lsys;
@@ -72,6 +74,74 @@ TEST_CASE("the error of the pipeline has the reason if there is no plant") {
     const std::atomic<bool> cancelled{true};
     project.host.cancelled = &cancelled;
     CHECK(grow_plant({}, grammar.value(), project).stop() == Stop::Cancelled);
+}
+
+TEST_CASE("parsing, checking and compiling can be cancelled") {
+    const auto repeated = [](const std::string& piece, int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) {
+            text += piece;
+        }
+        return text;
+    };
+    std::string doubled = "#n = 1;\n#function f0(x) x + 1;\n"; // f16 expands to 65,536 additions
+    for (int i = 1; i <= 16; ++i) {
+        const std::string call = "f" + std::to_string(i - 1) + "(x)";
+        doubled += "#function f" + std::to_string(i) + "(x) " + call + " + " + call + ";\n";
+    }
+    doubled += "#w : F(1);\n" + repeated("#p : A(x) : x > 1 : F(f16(x));\n", 30);
+    const std::string cases[] = {
+        "#n = 1; #w : F" + repeated("(1) F [ + F ]", 2'000'000) + ";",
+        "#n = 1; #w : F(1" + repeated(" + 1", 2'000'000) + ");",
+        "#n = 1; #w : A(1);\n" + repeated("#p : A(x) : x > 1 : F(x) B(x, x);\n", 500'000),
+        "#n = 1; #w : A(1); #p : A(x) : x > 0" + repeated(" && x > 1", 200'000) + " : F(x);",
+        doubled,
+        repeated("#p : A : * : F;;\n", 500'000)};
+    for (const std::string& text : cases) {
+        CAPTURE(text.substr(0, 40));
+        for (const int milliseconds : {0, 30, 200, 600}) {
+            Project project = project_of({{"long.lsys", text}});
+            std::atomic<bool> cancelled{false};
+            project.host.cancelled = &cancelled;
+            std::chrono::steady_clock::time_point begin;
+            std::thread other([&] {
+                std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+                begin = std::chrono::steady_clock::now();
+                cancelled = true;
+            });
+            const Outcome<Grammar> grammar = load_grammar("long.lsys", {}, project);
+            const auto end = std::chrono::steady_clock::now();
+            other.join();
+            CHECK((grammar.ok() || grammar.stop() != Stop::Cancelled ||
+                   end - begin < std::chrono::seconds(2))); // about 0.1 s on an idle machine
+            if (milliseconds == 0) {
+                CHECK((!grammar.ok() && grammar.stop() == Stop::Cancelled));
+            }
+        }
+    }
+}
+
+TEST_CASE("no method makes a mesh of a plant that is too large") {
+    for (const char* const axiom : {"!(3e38) F(1)", "F(3e38) F(1)", "f(1e20) F(1)"}) {
+        CAPTURE(axiom);
+        const Project project =
+            project_of({{"large.lsys", "#n = 0; #w : " + std::string(axiom) + ";"}});
+        Outcome<Grammar> grammar = load_grammar("large.lsys", {}, project);
+        REQUIRE(grammar);
+        const Outcome<Plant> plant = grow_plant({}, grammar.value(), project);
+        REQUIRE(plant);
+        for (const MeshMethod method :
+             {MeshMethod::Tubes, MeshMethod::Cylinders, MeshMethod::Boxes, MeshMethod::Solid}) {
+            MeshOptions options;
+            options.method = method;
+            const Outcome<Mesh> mesh =
+                mesh_plant(plant.value(), plant.value().skeleton, options, project);
+            REQUIRE_FALSE(mesh);
+            CHECK(mesh.messages().all().at(0).text ==
+                  "the plant is too large for a mesh: its coordinates, lengths and radii are at "
+                  "most 1e+15 m");
+        }
+    }
 }
 
 TEST_CASE("the error of the pipeline has the reason if there is no mesh") {

@@ -62,6 +62,14 @@ TEST_CASE("a program that a signal ends is reported") {
     CHECK(program.exit_text() == "signal 9");
 }
 
+TEST_CASE("a program that closes its output and runs on is not reported as ended by a signal") {
+    ShellProgram program;
+    REQUIRE(program.start("exec >&-; sleep 600") == 0);
+    std::string answer;
+    CHECK(program.ask("question", kLong, kMaxBytes, nullptr, answer) == Reply::Ended);
+    CHECK(program.exit_text().empty());
+}
+
 TEST_CASE("a program that hangs is ended after the time") {
     ShellProgram program;
     REQUIRE(program.start("sleep 600") == 0);

@@ -48,6 +48,13 @@ TEST_CASE("without a file options of plants, forests and pictures are refused") 
     }
 }
 
+TEST_CASE("the name of a picture may not be empty, and a folder of shaders must exist") {
+    CHECK(parsed<UsageError>({"tree.lsys", "--screenshot", ""}).message ==
+          "--screenshot: the name of the file is empty");
+    CHECK(parsed<UsageError>({"tree.lsys", "--shaders", "/nowhere/at/all"}).message ==
+          "--shaders: there is no folder `/nowhere/at/all`");
+}
+
 TEST_CASE("options switch shadows and the ground off") {
     const ViewOptions usual = parsed<ViewOptions>({"tree.lsys"});
     CHECK(usual.shadows);

@@ -40,6 +40,13 @@ TEST_CASE("a written camera is read back unchanged") {
     CHECK(relative_to(far.value(), camera.origin) == camera);
 }
 
+TEST_CASE("mistakes in a camera have messages with the range") {
+    CHECK(parse_camera("eye 1,2,3 eye 2,3,4", Camera{}).error().message ==
+          "a camera has one `eye`");
+    CHECK(parse_camera("eye 1e18,0,0", Camera{}).error().message ==
+          "a camera's eye is X,Y,Z, each at most 1e+07 metres, not `1e18,0,0`");
+}
+
 TEST_CASE("parts of a camera may be omitted") {
     const Camera default_camera;
     const Result<Camera> read = parse_camera("fov 20", default_camera);

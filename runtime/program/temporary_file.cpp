@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/program/temporary_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace lsys {
+
+namespace {
+
+using platform::File;
+using platform::Reason;
+
+// Numbered names come first, because a later run finds them without reading the folder. Their
+// count limits the processes that write one file at once and can be tidied up after.
+constexpr int kNumberedNames = 4;
+constexpr int kRandomNames = 100;
+
+std::string temporary_path(const std::string& target, std::string_view mark) {
+    return fmt::format("{}.lsys-{}.tmp", target, mark);
+}
+
+std::string numbered_path_of(const std::string& target, int number) {
+    return temporary_path(target, std::to_string(number));
+}
+
+/// Six random letters or digits.
+std::string random_letters() {
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
+    std::uint64_t bits = platform::random_bits();
+    std::string letters;
+    for (int i = 0; i < 6; ++i) {
+        letters += kLetters[bits % kLetters.size()];
+        bits /= kLetters.size();
+    }
+    return letters;
+}
+
+/// Makes and locks a file. EEXIST also if another process has removed it before it was locked.
+Reason create_locked(const std::string& path, bool is_private, File& file) {
+    if (const Reason reason = platform::create_file(path, is_private, file); reason != 0) {
+        return reason;
+    }
+    if (platform::lock_new_file(file)) {
+        return 0;
+    }
+    file = File();
+    return EEXIST;
+}
+
+} // namespace
+
+Reason
+create_temporary_file(const std::string& target, bool is_private, std::string& path, File& file) {
+    for (int number = 0; number < kNumberedNames; ++number) {
+        platform::remove_unlocked_file(numbered_path_of(target, number),
+                                       platform::WithoutLocks::Keep);
+    }
+    for (int attempt = 0; attempt < kNumberedNames + kRandomNames; ++attempt) {
+        std::string name = attempt < kNumberedNames ? numbered_path_of(target, attempt)
+                                                    : temporary_path(target, random_letters());
+        const Reason reason = create_locked(name, is_private, file);
+        if (reason != EEXIST) {
+            path = reason == 0 ? std::move(name) : path;
+            return reason;
+        }
+    }
+    return EEXIST;
+}
+
+void remove_unlocked_temporary(const std::string& path, const std::string& target) {
+    for (int number = 0; number < kNumberedNames; ++number) {
+        if (path == numbered_path_of(target, number)) {
+            platform::remove_unlocked_file(path, platform::WithoutLocks::Remove);
+            return;
+        }
+    }
+    platform::remove_file(path.c_str()); // nobody else takes a random name
+}
+
+} // namespace lsys
