@@ -2,7 +2,7 @@
 /* The tokens of .lsys files. Positions are byte offsets of the scanned text; Flex holds a copy of it. A run of
    module names, blanks and plain arguments, `F+F [ +(30) A`, is one token, because an axiom may have a hundred
    million modules. No long pattern contains NUL, at which Flex rescans the token from its start. Mistakes are
-   handled in impl/statement_tokens, module_tokens, expression_tokens and statement_ends. */
+   handled in impl/statement_start, statement_tokens, module_tokens, expression_tokens and statement_ends. */
 
 %option reentrant noyywrap nounput noinput nodefault never-interactive batch
 %option 8bit full ecs
@@ -16,8 +16,10 @@
 #include "grammar/lsys/impl/module_tokens.h"
 #include "grammar/lsys/impl/normalized_text.h"
 #include "grammar/lsys/impl/scanning.h"
-#include "grammar/lsys/impl/statement_tokens.h"
 #include "grammar/lsys/impl/statement_ends.h"
+#include "grammar/lsys/impl/statement_insertions.h"
+#include "grammar/lsys/impl/statement_start.h"
+#include "grammar/lsys/impl/statement_tokens.h"
 #include "lsys/parser.h"
 
 #define YY_DECL                                                                                    \

@@ -7,7 +7,8 @@
 #include "grammar/base/utf8.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
-#include "grammar/lsys/impl/statement_tokens.h"
+#include "grammar/lsys/impl/missing_colon.h"
+#include "grammar/lsys/impl/statement_insertions.h"
 
 #include <algorithm>
 #include <array>

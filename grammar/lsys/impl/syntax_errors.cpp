@@ -6,7 +6,7 @@
 #include "grammar/base/synonyms.h"
 #include "grammar/lsys/impl/bracket_search.h"
 #include "grammar/lsys/impl/lookahead.h"
-#include "grammar/lsys/impl/statement_tokens.h"
+#include "grammar/lsys/impl/missing_colon.h"
 
 #include <algorithm>
 #include <string>
