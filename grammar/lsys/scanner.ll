@@ -2,7 +2,7 @@
 /* The tokens of .lsys files. Positions are byte offsets of the scanned text; Flex holds a copy of it. A run of
    module names, blanks and plain arguments, `F+F [ +(30) A`, is one token, because an axiom may have a hundred
    million modules. No long pattern contains NUL, at which Flex rescans the token from its start. Mistakes are
-   handled in impl/statement_start, statement_tokens, module_tokens, expression_tokens and statement_ends. */
+   handled in the files of impl/ that are included here. */
 
 %option reentrant noyywrap nounput noinput nodefault never-interactive batch
 %option 8bit full ecs
@@ -11,10 +11,12 @@
 %{
 #include "grammar/base/cancellation.h"
 #include "grammar/base/scanner_memory.h"
+#include "grammar/lsys/impl/adjacent_values.h"
 #include "grammar/lsys/impl/expression_tokens.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/module_tokens.h"
 #include "grammar/lsys/impl/normalized_text.h"
+#include "grammar/lsys/impl/number_tokens.h"
 #include "grammar/lsys/impl/scanning.h"
 #include "grammar/lsys/impl/statement_ends.h"
 #include "grammar/lsys/impl/statement_insertions.h"

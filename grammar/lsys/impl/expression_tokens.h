@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tokens of expressions: numbers, operators, parentheses and two adjacent values. Obvious mistakes
-// are reported and read as meant.
+// Tokens of expressions: operators and brackets. Obvious mistakes are reported and read as meant.
 #pragma once
 
 #include "grammar/lsys/impl/parse_session.h"
@@ -12,15 +11,6 @@
 
 namespace lsys::lsys_grammar {
 
-/// The token of a number; reports a percentage and a number out of range.
-Token number(ParseSession& session, std::string_view text, SourceSpan span);
-void report_malformed_number(ParseSession& session, std::string_view text, SourceSpan span);
-/// Length of the number in texts like `2x`; 0 if no name follows it.
-[[nodiscard]] std::size_t number_before_name(std::string_view text);
-
-/// Reports and inserts a `,` or an operator before the current value, which follows another value.
-/// The scanner reads the current value again, unless it skips the statement.
-Token insert_before_value(ParseSession& session);
 /// Whether a `{` would begin the bounds of #param.
 [[nodiscard]] bool begins_bounds(const ScanState& scan);
 
@@ -45,10 +35,6 @@ void report_assignment(ParseSession& session);
 /// Whether the current `=` gives an argument a name, `F(length=2)`.
 [[nodiscard]] bool is_named_argument(const ParseSession& session);
 void report_named_argument(ParseSession& session);
-/// Whether the current `%` ends a percentage, which number() has reported.
-[[nodiscard]] bool is_percent_sign(const ParseSession& session);
-/// Reports a unit of measure after a number. Returns whether the current word is one.
-[[nodiscard]] bool report_unit_word(ParseSession& session, std::string_view word);
 /// Reports a variable or channel of another program, `$F` or `ch("angle")`; returns the token of a
 /// bad value.
 [[nodiscard]] Token foreign_value(ParseSession& session, std::string_view text);

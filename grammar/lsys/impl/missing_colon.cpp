@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/missing_colon.h"
 
-#include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
 #include "grammar/lsys/impl/lookahead.h"
 #include "grammar/lsys/impl/statement_facts.h"

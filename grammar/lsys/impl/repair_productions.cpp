@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "grammar/lsys/impl/statement_repair.h"
-
 #include "grammar/base/characters.h"
+#include "grammar/lsys/impl/statement_repair.h"
 
 #include <algorithm>
 #include <optional>

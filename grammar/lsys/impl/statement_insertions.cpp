@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/lsys/impl/statement_insertions.h"
 
-#include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
 #include "grammar/lsys/impl/statement_facts.h"
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
