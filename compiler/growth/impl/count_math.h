@@ -12,6 +12,9 @@ namespace lsys::analysis {
     return !count.exceeds && count.value == 0;
 }
 
+/// sum += value * times, for counts of any size.
+void add_large_times(Count& sum, const Count& value, std::uint64_t times);
+
 /// sum += value * times
 inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
     // Most counts are small: two factors below 2^31, plus a sum below 2^63, fit 64 bits.
@@ -20,14 +23,7 @@ inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
         sum.value.low += value.value.low * times;
         return;
     }
-    // A value of up to 60 bits times 64 bits, plus a sum below 2^126, fits 128 bits.
-    constexpr int kRoom = 60;
-    if (!sum.exceeds && !value.exceeds && value.value.high == 0 && value.value.low >> kRoom == 0 &&
-        sum.value.high >> 62 == 0) {
-        sum.value = sum.value + full_product(value.value.low, times);
-        return;
-    }
-    sum = sum + value * Count{times, false, 0.0};
+    add_large_times(sum, value, times);
 }
 
 inline void add_times(GenerationSize& sum, const GenerationSize& size, std::uint64_t times) {
