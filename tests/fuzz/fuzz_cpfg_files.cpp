@@ -27,7 +27,7 @@ constexpr std::size_t kMaxGrammarBytes = 100'000;
 lsys::CpfgUses all_uses() {
     lsys::CpfgUses uses;
     uses.sets_widths = uses.steps_widths = uses.steps_colours = true;
-    uses.has_elasticity = uses.changes_tropisms = uses.has_textures = uses.has_any_colour = true;
+    uses.has_elasticity = uses.changes_tropisms = uses.has_any_texture = uses.has_any_colour = true;
     for (unsigned colour = 0; colour < 256; ++colour) {
         uses.colours.insert(colour);
     }
