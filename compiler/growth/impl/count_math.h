@@ -15,8 +15,8 @@ namespace lsys::analysis {
 /// sum += value * times, for counts of any size.
 void add_large_times(Count& sum, const Count& value, std::uint64_t times);
 
-/// sum += value * times
-inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
+/// sum += value * times. Always inline: otherwise it is a call in code that is compiled for size.
+[[gnu::always_inline]] inline void add_times(Count& sum, const Count& value, std::uint64_t times) {
     // Most counts are small: two factors below 2^31, plus a sum below 2^63, fit 64 bits.
     if (!sum.exceeds && !value.exceeds && (sum.value.high | value.value.high) == 0 &&
         sum.value.low >> 63 == 0 && (value.value.low | times) >> 31 == 0) {
