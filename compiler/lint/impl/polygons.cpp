@@ -191,7 +191,7 @@ private:
                 const OpenPolygon ended = open.back();
                 open.pop_back();
                 if (!ended.may_grow) {
-                    check_size(word, ended.begin, i, ended.vertices, ended.moves);
+                    check_size(word, ended, i, may_be_inside || !open.empty());
                 }
             } else if (!open.empty()) {
                 OpenPolygon& inner = open.back();
@@ -259,14 +259,30 @@ private:
         diagnostics_.add(std::move(diagnostic));
     }
 
-    /// Reports a polygon with fewer than three vertices. Without `.` the vertices are the start and
-    /// end of every move (ABOP figure 1.25); in profile `cpfg` they are each `.` and the end of
-    /// each move.
+    /// The first `.` outside of polygons between the `}` at `close` and the next polygon of the
+    /// word; nullopt if there is none.
+    [[nodiscard]] std::optional<std::size_t> vertex_behind(const ProgramWord& word,
+                                                           std::size_t close) const {
+        const std::size_t end = std::size_t{word.first_module} + word.module_count;
+        for (std::size_t i = close + 1; i < end && kind(i) != SymbolKind::PolygonOpen; ++i) {
+            if (program_.symbol(program_.modules[i].symbol).turtle ==
+                    TurtleOperation::PolygonVertex &&
+                !is_decimal_point(word, i)) {
+                return i;
+            }
+        }
+        return std::nullopt;
+    }
+
+    /// Reports a polygon, whose `}` is at `close`, with fewer than three vertices. Without `.` the
+    /// vertices are the start and end of every move (ABOP figure 1.25); in profile `cpfg` they are
+    /// each `.` and the end of each move. `is_inside`: it may stand within another polygon.
     void check_size(const ProgramWord& word,
-                    std::size_t open,
+                    const OpenPolygon& polygon,
                     std::size_t close,
-                    std::uint32_t vertices,
-                    std::uint32_t moves) {
+                    bool is_inside) {
+        const std::uint32_t vertices = polygon.vertices;
+        const std::uint32_t moves = polygon.moves;
         const bool are_ends = program_.settings.traits.corners_are_ends;
         const std::uint32_t count = are_ends        ? vertices + moves
                                     : vertices != 0 ? vertices
@@ -275,7 +291,7 @@ private:
         if (count >= 3) {
             return;
         }
-        Diagnostic& diagnostic = add(DiagnosticCode::SmallPolygon, word, open,
+        Diagnostic& diagnostic = add(DiagnosticCode::SmallPolygon, word, polygon.begin,
                                      count == 0 ? std::string("a polygon without vertices")
                                                 : fmt::format("a polygon of {} {}", count,
                                                               count == 1 ? "vertex" : "vertices"));
@@ -284,6 +300,13 @@ private:
             vertices != 0 && !are_ends
                 ? "add vertices with `.`: a polygon has at least three"
                 : "add vertices with `.`, or moves with `F` or `f`: a polygon has at least three");
+        const std::optional<std::size_t> behind =
+            is_inside || stray_reported_ ? std::nullopt : vertex_behind(word, close);
+        if (behind) { // one mistake: the `}` stands too early
+            diagnostic.labels.push_back(
+                {module_name_span(input_, word, *behind), "this vertex is outside of any polygon"});
+            stray_reported_ = true;
+        }
     }
 
     Diagnostic&
