@@ -104,7 +104,8 @@ void remove_file(const char* path) noexcept;
 /// Keeps the lock of a file beyond File::close(), until `lock` is closed. The file may be renamed
 /// and removed meanwhile. `path`: its present path.
 [[nodiscard]] Reason keep_lock(const File& file, const std::string& path, File& lock);
-enum class WithoutLocks : std::uint8_t { Keep, Remove }; // for file systems that have no locks
+/// What to do with a file that cannot be opened to lock it, or whose file system has no locks.
+enum class WithoutLocks : std::uint8_t { Keep, Remove };
 /// Removes a regular file that no running process has locked.
 void remove_unlocked_file(const std::string& path, WithoutLocks without_locks);
 

@@ -46,7 +46,13 @@ void remove_unlocked_file(const std::string& path, WithoutLocks without_locks) {
         ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat opened {};
     struct stat named {};
-    if (!file.is_open() || ::fstat(file.descriptor(), &opened) != 0 || !S_ISREG(opened.st_mode)) {
+    if (!file.is_open() || ::fstat(file.descriptor(), &opened) != 0) {
+        if (without_locks == WithoutLocks::Remove) {
+            ::unlink(path.c_str());
+        }
+        return;
+    }
+    if (!S_ISREG(opened.st_mode)) {
         return;
     }
     const Reason reason = try_lock(file.descriptor());
