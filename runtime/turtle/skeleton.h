@@ -68,8 +68,8 @@ struct PlacedObject {
 
 inline constexpr std::uint32_t kNoContour = 0xFFFFFFFFu;
 
-/// Tangents of the radius of an organ at a point, in a plane of the part of the way between two
-/// points and the radius in m. Both components 0: the radius changes evenly.
+/// The curve of an organ's radius in m over the fraction of the way to the next point: its tangents
+/// before and after a point, each a fraction and a radius. A tangent of (0, 0): a straight line.
 struct RadiusTangents {
     float part_before = 0.0F;
     float radius_before = 0.0F;

@@ -46,7 +46,7 @@ out vec2 fog;
 out vec3 from_eye;
 #endif
 #ifdef MOVES
-out vec3 moved; // place in the picture before minus place, m
+out vec3 moved; // world position in the previous picture minus that in this one, m
 #endif
 void main() {
     Branch at = branches[branch & 0xFFFFFFu];

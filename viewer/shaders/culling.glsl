@@ -37,7 +37,9 @@ layout(std430, binding = 5) buffer State {
     uint cluster_blended;     // trees drawn both alone and in a cluster
     uint branch_blended;     // trees drawn both as branches and as an impostor
     uint drawn_branches;
-    uint detail;           // bits of the factor of heights
+    // A float as bits: factor of the heights of trees in pixels, which lowers the detail of trees; see
+    // ForestFrameStats::detail.
+    uint detail;
     uint level_counts[4];  // near trees with branches in view, by level
     uint triangles[2];     // triangles of branches, 64 bits
     uint coarser_used;     // branches drawn once more, in a coarser level

@@ -14,7 +14,7 @@ const float kHeightCell = 0.5; // m, of level 0
 out vec3 front;
 out vec3 back;
 #ifdef MOVES
-out vec3 moved; // place in the picture before minus place, m
+out vec3 moved; // world position in the previous picture minus that in this one, m
 #endif
 
 uint mixed(uint bits) { // a step of PCG (O'Neill 2014)

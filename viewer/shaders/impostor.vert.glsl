@@ -33,7 +33,7 @@ flat out vec3 crown_step;            // per unit of depth
 flat out mat3 world_from_impostor;   // for normals
 #endif
 #ifdef MOVES
-out vec3 moved; // place in the picture before minus place, m
+out vec3 moved; // world position in the previous picture minus that in this one, m
 #endif
 // Axes of a view, for normals.
 mat3 axes_of(float yaw, int view, int elevation) {

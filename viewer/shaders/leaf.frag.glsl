@@ -21,7 +21,7 @@ in vec3 back;
 #endif
 layout(location = 0) out vec4 colour;
 #ifdef MOVES
-in vec3 moved; // place in the picture before minus place, m
+in vec3 moved; // world position in the previous picture minus that in this one, m
 layout(location = 1) out vec4 motion;
 #endif
 void main() {

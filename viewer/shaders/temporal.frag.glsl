@@ -4,7 +4,7 @@
 // 2014, "High-Quality Temporal Supersampling"; Salvi 2016, "An Excursion in Temporal Supersampling").
 #include "frame.glsl"
 layout(binding = 1) uniform sampler2D picture;
-layout(binding = 2) uniform sampler2D motions; // place in the picture before minus place, m
+layout(binding = 2) uniform sampler2D motions; // world position before minus world position, m
 layout(binding = 3) uniform sampler2D depths;  // 0 at infinity
 layout(binding = 4) uniform sampler2D history;
 layout(location = 0) uniform mat4 before_from_world; // without the shift of the picture

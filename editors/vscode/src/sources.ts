@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The places of a grammar that belong to a position in its text.
+// Finds the sources, modules that drew parts of the plant, at a position in the grammar.
 
 import type { Position, Range, Source } from './protocol';
 

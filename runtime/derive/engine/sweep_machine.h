@@ -55,7 +55,8 @@ namespace sweep_functions {
 [[nodiscard]] SweepFunction choose(); // x if r is not 0, else y
 [[nodiscard]] SweepFunction mix();    // mix(x, y, r)
 [[nodiscard]] SweepFunction curve();  // the value at r of curve x.index
-[[nodiscard]] SweepFunction check();  // r; if y is not 0 and no draw of opcode(x, r): a fault
+[[nodiscard]] SweepFunction check();  // r; a fault if y, the guard of a draw, is not 0 and
+                                      // the draw opcode(x, r) has invalid arguments
 [[nodiscard]] SweepFunction range();  // a draw of the range [x, r), with y as u in [0, 1)
 [[nodiscard]] SweepFunction draw();   // a draw of the distribution opcode(x, r), with y as u
 [[nodiscard]] SweepFunction unary(Opcode opcode);   // opcode(r)

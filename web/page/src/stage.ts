@@ -129,8 +129,8 @@ export class Stage {
       this.draw();
       return;
     }
-    const kTop = 55; // pixels of the buttons, and of the bar of the growth
-    const kBottom = 85;
+    const kTop = 55; // pixels that the buttons cover
+    const kBottom = 85; // pixels that the slider of generations covers
     const kMargin = 1.02;
     const { clientHeight } = this.canvas;
     const free = Math.max(1 - (kTop + kBottom) / clientHeight, 0.5); // part of the height
