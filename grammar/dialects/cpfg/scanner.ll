@@ -120,7 +120,7 @@ NUMBER  ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][+-]?[0-9]+)?
                         }
   ")"                   { return Token::TOK_CLOSE; }
   "@"{B}*[GTCDPBS]{B}*[a-z] { COMMAND; }
-  "@"[^<>:* \t\r\n]     { COMMAND; }
+  "@"[\x21-\x7E]{-}[<>:*] { COMMAND; }
   "@"{B}+[A-Za-z#]      { COMMAND; }
   "?"[PHULRE]           { OPERATOR(SYMBOL); }
   [\x21-\x7E]           { OPERATOR(SYMBOL); }
