@@ -17,7 +17,7 @@ from drawing import blend, field
 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))
 SIZE = 256
-FINE = 2  # pixels drawn for each of the picture, along both sides
+FINE = 2  # drawn pixels per pixel of the picture, along each side
 
 
 def soil(low, high, seed):
