@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws the pictures of the ground of the scenes of species, each seen from above and repeated without seams:
-spruce-wood/needles.png, beech-wood/leaves.png, birch-heath/heath.png, park/lawn.png, meadow/turf.png; and the map of
+spruce-wood/needles.png, beech-wood/leaves.png, birch-heath/heath.png, park/lawn.png, meadow/turf.png; and the map
 sensing-wood/wood.png.
 Usage: samples/scenes/grounds.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import math
