@@ -153,7 +153,7 @@ private:
         Buffer trees;
         Buffer branches;
         Buffer lists;                   // entries of branches
-        std::vector<Commands> commands; // by class: unblended ones, then blended ones
+        std::vector<Commands> commands; // by command_index()
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
     /// Class of the branches with this material.
