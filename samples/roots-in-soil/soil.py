@@ -10,7 +10,7 @@ import struct
 import zlib
 
 SIZE = 128
-# Column and row of the middle, radius, all over the width of the picture, and wetness.
+# Wet patches: x and y of the centre, radius, as fractions of the picture's side; wetness.
 PATCHES = [(0.76, 0.3, 0.17, 1), (0.2, 0.24, 0.12, 0.8), (0.3, 0.78, 0.2, 1), (0.83, 0.76, 0.1, 0.7)]
 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))

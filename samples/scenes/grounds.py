@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws the pictures of the ground of the scenes of species, each seen from above and repeated without seams:
-spruce-wood/needles.png, beech-wood/leaves.png, birch-heath/heath.png, park/lawn.png, meadow/turf.png; and the map of
+spruce-wood/needles.png, beech-wood/leaves.png, birch-heath/heath.png, park/lawn.png, meadow/turf.png; and the map
 sensing-wood/wood.png.
 Usage: samples/scenes/grounds.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import math
@@ -17,7 +17,7 @@ from drawing import blend, field
 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))
 SIZE = 256
-FINE = 2  # pixels drawn for each of the picture, along both sides
+FINE = 2  # drawn pixels per pixel of the picture, along each side
 
 
 def soil(low, high, seed):

@@ -6,7 +6,7 @@ import math
 import numpy as np
 from PIL import Image, ImageDraw
 
-FINE = 4  # a picture is drawn with this many pixels for each of its own, along both sides
+FINE = 4  # drawn pixels per pixel of the written picture, along each side
 
 
 class Card:

@@ -7,7 +7,7 @@ import os
 
 SIDES = 32
 BALL = [(0.3 * math.sin(math.radians(a)), 1.46 - 0.3 * math.cos(math.radians(a))) for a in range(30, 180, 15)]
-# Radius and height, m, from the bottom to the top; the axis is the middle of the first and the last ring.
+# Radius and height, m, from the bottom to the top; vertices on the axis close the first and the last ring.
 RINGS = [(0.52, 0.18), (0.6, 0.26), (0.6, 0.36), (0.2, 1.04), (0.29, 1.1), (0.29, 1.15), (0.15, 1.19)] + BALL
 
 os.chdir(os.path.dirname(os.path.abspath(__file__)))

@@ -46,10 +46,10 @@ private:
 /// A sample of the gallery, samples/NAME/NAME.lsys or samples/species/NAME/NAME.lsys.
 struct Sample {
     std::filesystem::path file;
-    std::vector<std::vector<std::string>> runs; // by `run:` line; with the path of the file
+    std::vector<std::vector<std::string>> runs; // arguments of lsc, by `run:` line
     std::string counts;                         // one count per line, as --all --count prints them
     std::size_t counts_size = 0;                // number of counts
-    bool declares_warnings = false; // warnings are expected: a grammar as its source printed it
+    bool declares_warnings = false; // the grammar is as its source printed it, with warnings
 };
 [[nodiscard]] std::vector<Sample> all_samples();
 

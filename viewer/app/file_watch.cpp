@@ -41,7 +41,7 @@ std::vector<fs::path> names_of(const std::string& path) {
 
 struct Watched {
     std::string path;
-    std::vector<fs::path> names; // of names_of()
+    std::vector<fs::path> names; // names_of(path)
     platform::FileStamp stamp;
     /// Time of the first unreported change; empty: none.
     std::optional<FileWatch::Clock::time_point> changed;

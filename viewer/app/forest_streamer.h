@@ -87,8 +87,8 @@ private:
     void hide_squares(SquareChanges& changes);
     /// Shows wanted squares that are ready, see step(). Precondition: the caller holds the lock.
     void show_squares(const WantedSquares& wanted, std::uint64_t max_trees, SquareChanges& changes);
-    /// Removes squares that are not wanted, those first whose last use is longest ago, until all
-    /// others are within the budget. Precondition: the caller holds the lock.
+    /// Removes squares that are not wanted, least recently wanted first, until the others are within
+    /// the budget. Precondition: the caller holds the lock.
     void forget_squares();
 
     const ForestDocument& document_;

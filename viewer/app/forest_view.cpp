@@ -91,7 +91,7 @@ ForestView::ForestView(const ViewOptions& options,
     files_ = options_.files;
     watch_files();
     renderer_->colour_branches(shown_colours_);
-    renderer_->show_senses({}); // of another view
+    renderer_->show_senses({}); // removes what another view has drawn
 }
 
 ForestView::~ForestView() {

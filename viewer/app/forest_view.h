@@ -194,7 +194,7 @@ private:
     bool move_step(std::vector<StepKind>& from, std::vector<StepKind>& to, bool redoes);
     void take_outcome(ForestOutcome outcome); // drops an outcome of another scene
     void swap(ForestOutcome outcome);         // shows the new forest in place of the old one
-    void show_outline();                      // of the tool, at pointed_
+    void show_outline();                      // draws the outline of the tool at pointed_
     void show_senses();
     /// Displacements of environments since the shown forest grew.
     [[nodiscard]] SpeciesMoves new_moves() const;
@@ -204,7 +204,7 @@ private:
     /// painted.
     bool refuses_painting();
     [[nodiscard]] Result<void> save_season(const std::string& scene); // settings.edits.season
-    void show_colours(); // of branches, if the setting has changed
+    void show_colours(); // colours branches again if the setting has changed
     /// For notes: `what`, then counts of painted trees.
     [[nodiscard]] std::string painted_text(const char* what) const;
     void watch_files();

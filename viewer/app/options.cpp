@@ -253,7 +253,7 @@ void add_picture(CLI::App& app, ViewOptions& options) {
     add_parsed(
         app, "--temporal-antialiasing", options.temporal,
         [](const std::string& text) -> Result<std::uint64_t> {
-            constexpr std::array<const char*, 3> kWords = {"auto", "off", "on"}; // as Temporal
+            constexpr std::array<const char*, 3> kWords = {"auto", "off", "on"}; // by Temporal
             for (std::uint64_t i = 0; i < kWords.size(); ++i) {
                 if (text == kWords[i]) {
                     return i;

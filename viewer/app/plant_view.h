@@ -202,7 +202,7 @@ private:
     PlantViewStats stats_;
     Bounds rest_bounds_; // bounds of document_ at rest
 
-    std::optional<PlantViewSettings> requested_; // of the last request to the loader
+    std::optional<PlantViewSettings> requested_; // settings of the last request
     EditHistory<PlantEdits> history_;
     FileEdits file_edits_;
     LineKind shown_lines_ = LineKind::None;

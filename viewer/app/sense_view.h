@@ -21,7 +21,7 @@ struct SenseLook {
     bool obstacles = true;   // meshes and planes of kind Solid
     bool light = false;      // kinds Shadow and Sky: voxels or places, coloured by their light
     bool markers = false;    // kind Space: markers that are not removed yet
-    bool directions = false; // arrow in the direction with which each module was answered
+    bool directions = false; // arrow in the direction that each module got as its answer
 
     friend bool operator==(const SenseLook&, const SenseLook&) = default;
 };
@@ -40,8 +40,8 @@ void set_move(std::string_view name,
               std::vector<EnvironmentMove>& moves);
 
 /// Draws what `plant` has sensed. `moves`: displacements of obstacles since the plant has grown.
-/// `bounds`: of the plant as drawn; planes reach three times as far, and arrows have 4 % of its
-/// diagonal.
+/// `bounds`: of the plant as drawn; planes reach three times as far, and arrows have 4 to 30 % of
+/// its diagonal.
 [[nodiscard]] SenseDrawing make_sense_drawing(const SensedPlant& plant,
                                               const SenseLook& look,
                                               const std::vector<EnvironmentMove>& moves,

@@ -47,8 +47,8 @@ void draw_problem(const std::string& problem);
 [[nodiscard]] std::string grouped(std::uint64_t number);
 void draw_wind(Wind& wind);
 void draw_quality(Quality& quality);
-/// Draws controls for the sun and the turbidity. `scene`: light of the scene, whose values those of
-/// `light` replace.
+/// Draws controls for the sun and the turbidity, which set values of `light`. Values of `light`
+/// replace those of `scene`.
 void draw_sun(const SceneLight& scene, SceneLight& light);
 /// Draws the camera as an editable line of text with a button that copies it.
 void draw_camera(Camera& camera);

@@ -50,7 +50,7 @@ constexpr GLuint kShadowDepthTexture = 12;
 constexpr GLint kDisc = 0;
 constexpr GLint kGridStep = 1;
 constexpr GLint kPickedContent = 20; // in pick.frag.glsl
-// Exponent of the part of a raised exposure that sky and air do not follow.
+// Light of sky and air is divided by (raised exposure / usual exposure) ^ kSkyAdaptation.
 constexpr float kSkyAdaptation = 0.8F;
 constexpr float kDiscInRadii = 14.0F; // radius of the ground disc, in radii of the plant
 
@@ -111,7 +111,7 @@ bool overlaps(const Bounds& a, const Bounds& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
-/// A shadow map matrix whose depths begin `factor` times as far from the end, towards the sun.
+/// Matrix of a shadow map with a range of depths `factor` times as long, extended towards the sun.
 glm::mat4 deepened(const glm::mat4& matrix, float factor) {
     glm::mat4 deep = matrix;
     for (int column = 0; column < 4; ++column) {
@@ -388,7 +388,7 @@ private:
         if (is_temporal) {
             temporal_.resize(area.width, area.height);
         } else if (refinements_ == 0) {
-            temporal_.forget(); // the next picture has no picture just before it
+            temporal_.forget(); // the next picture must not be mixed with earlier ones
         }
         const TemporalAntialiasing::Moment now{block.view_projection, block.wind, block.eye_time.w};
         const TemporalAntialiasing::Moment& before = temporal_.before(now);

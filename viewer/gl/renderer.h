@@ -77,7 +77,7 @@ struct Frame {
     PlantStyle style = PlantStyle::Surface;
     bool dims = false;         // dims everything except lines; not with `transparent`
     std::uint32_t samples = 4; // per pixel: 1 or 4
-    /// Mix the picture with the pictures before it (temporal antialiasing). Only with Quality::High,
+    /// Mix the picture with earlier pictures (temporal antialiasing). Only with Quality::High,
     /// for whole pictures, and not with `transparent`.
     bool temporal = false;
     std::optional<glm::dvec3> figure; // feet of a person of 1.8 m in the world, m
@@ -124,7 +124,7 @@ enum class Quality : std::uint8_t {
 /// Times of the last picture, ms.
 struct FrameTimes {
     double cpu = 0.0; // processor time of the thread that called draw()
-    double gpu = 0.0; // of timer queries; of an earlier picture until the last is drawn
+    double gpu = 0.0; // by timer queries; of an earlier picture until the GPU is done
 };
 
 /// Statistics of the last picture of a forest.

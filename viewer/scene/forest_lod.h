@@ -66,8 +66,8 @@ struct Sway {
 [[nodiscard]] Sway sway_in(const Wind& wind);
 
 /// Range [low, high) of dither thresholds: while an object blends with another object, it draws
-/// only pixels whose threshold is in this range. dither_threshold() in shaders/blend.glsl assigns
-/// each pixel a threshold, 0 to 1.
+/// only pixels whose threshold is in this range. shaders/blend.glsl assigns each pixel, or each
+/// sample of a pixel, a threshold, 0 to 1.
 struct BlendRange {
     float low = 0.0F;
     float high = 1.0F;
@@ -179,8 +179,8 @@ public:
 
     /// Adds or removes a tree, in time independent of the size of the forest. `index`: index in
     /// Forest::trees; added trees have the indices after these, in the order of addition. An added
-    /// tree that was removed may be replaced. A tree of the forest may get another yaw, with which
-    /// its surroundings change. Returns the index of the tree for lod_tree().
+    /// tree that was removed may be replaced. For a tree of the forest, only yaw and the form that
+    /// its surroundings select may change. Returns the index of the tree for lod_tree().
     std::uint32_t change_tree(std::uint32_t index, const Tree& tree, bool alive);
 
     /// For a streamed forest: sets the place of the world, in m, to which all places are relative,

@@ -35,7 +35,7 @@ private:
     /// The ground occludes all that lies behind it and below this slope.
     struct Sector {
         bool known = false;        // the slopes have been computed for the eye
-        std::vector<float> slopes; // by number of the distance
+        std::vector<float> slopes; // by index of the distance in rays()
     };
 
     /// Computed on first use.

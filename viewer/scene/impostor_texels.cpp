@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::uint8_t kOpaque = 128; // min opacity of opaque texels
 
-/// Opacity smoothed over the texels beside each texel: contours stay smooth in magnified pictures,
-/// and few texels are equal. 0 to kWhole.
-constexpr std::uint32_t kWhole = 16 * 255;
+constexpr std::uint32_t kWhole = 16 * 255; // smoothed opacity of opaque areas
+/// Opacities, 0 to kWhole, smoothed over the texels beside each texel: contours stay smooth in
+/// magnified pictures, and few texels are equal.
 std::vector<std::uint32_t> smoothed_opacities(const ImpostorTexels& picture) {
     const std::size_t width = picture.width;
     const std::size_t height = picture.height;

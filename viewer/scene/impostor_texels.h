@@ -25,8 +25,8 @@ struct ImpostorTexels {
 /// colour of empty texels into others.
 void dilate(ImpostorTexels& picture, std::uint32_t rounds);
 
-/// Darkens texels that lie deeper than those around them and lightens those that stand out, which
-/// light at the surface of a whole crown does not do (Luft, Colditz and Deussen 2006, "Image
+/// Darkens texels that lie deeper than those around them and lightens those that stand out, because
+/// lighting the crown as one surface shows no hollows (Luft, Colditz and Deussen 2006, "Image
 /// Enhancement by Unsharp Masking the Depth Buffer"). The mean lightness of each tile stays.
 /// `tile`: side of a tile in texels, a multiple of 8. `depth`: depth in m of the tree or cluster in
 /// a tile, divided by the depth of a single tree; 1 for trees.

@@ -16,9 +16,9 @@ namespace {
 constexpr std::uint32_t kMaxCells = std::uint32_t{1} << 22; // max number of squares
 // Generation in the counter of Philox for painted trees; no placement draws with this number.
 constexpr std::uint32_t kPaintGeneration = 0x5041494EU;
-// Number of random places that are tried per tree that still fits into the brush; max number of
-// places tried per call.
+// Number of random places that are tried per tree that still fits into the brush.
 constexpr double kTries = 4.0;
+// Max number of random places that are tried per call.
 constexpr double kMaxTries = 20'000.0;
 // Max density * d^2 of trees that are placed at random, at least d apart. The jamming limit of
 // discs is 0.547 of the area (Feder 1980), and 0.547 * 4 / pi = 0.696.

@@ -12,11 +12,11 @@ layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
 // colours of the instances, as square roots of linear RGB.
 layout(std430, binding = 5) readonly buffer BranchColours { uint branch_colours[]; };
 const uint kColoured = 8u; // bit of Material.kind: one colour for all of the branch
-layout(location = 0) in vec3 position;  // in the box of the heroes, -1 to 1
+layout(location = 0) in vec3 position;  // from the hero's origin, in units of cylinder.w
 layout(location = 1) in uint material_index;
 layout(location = 2) in vec2 normal;    // octahedral
 layout(location = 3) in vec2 texture_coordinate;
-layout(location = 4) in uint branch;    // index in branches; from bit 24 on: BranchEntry
+layout(location = 4) in uint branch;    // BranchEntry: index in branches; bits from 24 on: blending
 #ifdef PICK
 flat out uint item;
 #endif
@@ -63,7 +63,7 @@ void main() {
     float size = at.position_scale.w * forms[tree.form].cylinder.w;
     vec3 world = at.position_scale.xyz + rotate(turn, size * position);
     vec3 in_crown = (world - crown_centre(tree)) / crown_axes(tree);
-    vec3 shadow_place = world; // place of the shadow map, which shows the trees without wind
+    vec3 shadow_place = world; // position for the shadow map, which shows the trees without wind
 #ifdef CUT_OUT
     const float kFlutter = 1.0;
 #else

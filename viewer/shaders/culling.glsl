@@ -6,15 +6,15 @@ layout(std140, binding = 1) uniform Culling {
     vec4 planes[5];     // planes of the view, pointing inward
     vec4 eye_pixels;    // xyz: eye, m; w: height in pixels of an object as high as it is far away
     vec4 level_pixels;  // min height in pixels for each level of branches
-    vec4 sway;          // Sway: per m of height, per m of width, m; w: LodOptions::blend
+    vec4 sway;          // xyz: Sway: m per m of height, m per m of width, m; w: LodOptions::blend
     vec4 clusters;      // x: LodOptions::cluster_pixels; y: side of a cell, m; z: level_blend
     vec4 casters_low;   // box of the casters of shadows, m
     vec4 casters_high;
-    uvec4 trees;        // x: cells; y: trees in cells; z: added trees; w: 1 to list shadow casters
+    uvec4 trees;        // counts: x: cells; y: trees in cells; z: added trees; w: 1 to list casters
     uvec4 limits;       // max of: xy: triangles (64 bits); z: branches; w: candidates
-    uvec4 key;          // xy: key of the forest; z: max impostors; w: keys of branches
+    uvec4 key;          // xy: key of the forest; z: max impostors; w: number of keys of branches
     vec4 ground;        // x: 1 if the ground occludes, else 0; y: height of the eye above it, m
-    uvec4 heights;      // x: levels of the ground; y: distances of the horizon
+    uvec4 heights;      // x: number of levels of the ground; y: number of distances of the horizon
     ivec4 origins[14];  // xy: first texel of the heights of a level, in cells of the level
 } culling;
 
@@ -26,11 +26,11 @@ const float kNearest = 0.1; // m: min distance
 // Counts and draw sizes that the compute shaders write; the C++ side is CullingState.
 layout(std430, binding = 5) buffer State {
     uint dispatches[24];   // sizes of indirect dispatches, three words each
-    uint draws[16];        // commands: impostors of trees, whole and blended; then of clusters
+    uint draws[16];        // 4 commands: impostors of trees, whole and blended; then of clusters
     uint cell_totals[4];   // clusters, blended clusters, cells with visible trees, their trees
-    uint tree_totals[4];   // candidates, far trees, blended far trees, 0
-    uint near_totals[4];   // candidates drawn as impostors, near trees, their branches, 0
-    uint pool_used;        // branches made
+    uint tree_totals[4];   // counts: candidates, whole far trees, blended far trees, 0
+    uint near_totals[4];   // counts: candidate impostors, near trees, branches, coarser branches
+    uint pool_used;        // number of branches in the pool
     uint waiting;          // near trees without room for their branches
     uint occluded;         // trees occluded by the ground
     uint clustered;        // trees drawn only in clusters
@@ -40,14 +40,14 @@ layout(std430, binding = 5) buffer State {
     // A float as bits: factor of the heights of trees in pixels, which lowers the detail of trees; see
     // ForestFrameStats::detail.
     uint detail;
-    uint level_counts[4];  // near trees with branches in view, by level
+    uint level_counts[4];  // by level: number of near trees with branches in view
     uint triangles[2];     // triangles of branches, 64 bits
     uint coarser_used;     // branches drawn once more, in a coarser level
     uint level_blended;    // trees drawn in two levels of branches
-    uint sums[192];        // sums of triangles, by step and part of the search: 64 bits each
+    uint sums[192];        // triangles by step and factor of the search for `detail`: 64 bits each
 } state;
 
-// Number of a workgroup of a dispatch in two dimensions.
+// Index of this workgroup in a dispatch of two dimensions.
 uint block_number() {
     return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 }
@@ -102,7 +102,7 @@ uint blend_steps(float pixels, uint level) {
     float blend = level + 1u == kLevels ? culling.sway.w : culling.clusters.z;
     return uint(floor(finer_weight(pixels, limit, blend) * float(kBlendSteps) + 0.5));
 }
-// Whether a near tree is drawn in a coarser level too.
+// Whether a near tree of this level and weight is drawn in the next coarser level, too.
 bool has_coarser(uint level, uint steps) {
     return level + 1u < kLevels && steps != kBlendSteps;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Branches of the near trees in the layout of PoolBranch: pose_of() and pool_branch(), one invocation
-// per branch. Transforms are multiplied from the branch to the root of its tree.
+// Makes the branches of the near trees, in the layout of PoolBranch, like pose_of() and
+// pool_branch(). An invocation multiplies the transforms from a branch to the root of its tree.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 #include "culling_tables.glsl"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Cells of a picture: hidden, drawn as a cluster, as its trees, or as both; ForestLod::visit_cell().
-// With LIST, writes the lists of clusters and of cells with visible trees.
+// Decides, as ForestLod::visit_cell(), whether a cell is hidden or drawn as a cluster, as trees, or
+// as both. With LIST, writes the lists of clusters and of cells with visible trees.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 #include "culling_list.glsl"
 #include "culling_horizon.glsl"
 // Three per cell: low corner, height of the tallest tree; high corner, count of trees and, in bit
-// 31, whether trees were removed; mean position, first tree. Floats as bits, except counts.
+// 31, whether trees were removed; mean position, first tree. Floats are stored as bits.
 layout(std430, binding = 4) readonly buffer Cells { uvec4 cells[]; };
-// Cells with visible trees: first tree, number of trees in the cells before, weight of the trees
-// against the cluster.
+// Cells with visible trees: first tree, number of trees in the entries before, weight of the trees
+// against the cluster (a float as bits), index of the cell.
 layout(std430, binding = 8) writeonly buffer VisibleCells { uvec4 visible_cells[]; };
 #include "culling_entries.glsl"
 
@@ -28,7 +28,7 @@ float cluster_size(float tallest, vec3 middle) {
     return max(tallest, per_side * culling.clusters.y);
 }
 
-// Bits kCluster and kTrees of a cell; bits of the weight of its trees against its cluster.
+// x: flags kCluster and kTrees; y: weight of the trees against the cluster, a float as bits.
 uvec2 code_of(uint index) {
     vec4 low = uintBitsToFloat(cells[3u * index]);
     uvec4 high_words = cells[3u * index + 1u];

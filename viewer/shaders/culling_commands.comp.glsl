@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fills draw commands with the count and the first branch of their keys.
+// Sets, in each draw command, the instance count and the first instance: the branches of its key.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint command_count;

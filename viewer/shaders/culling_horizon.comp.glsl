@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Slopes of the horizon: GroundHorizon::slopes_of(). A workgroup per direction, an invocation per
-// distance.
+// Computes the slopes of the horizon, as GroundHorizon::slopes_of(): a workgroup per direction, an
+// invocation per distance.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 layout(binding = 1) uniform sampler2DArray heights; // as in terrain.vert.glsl
 layout(binding = 0, r32f) writeonly uniform image2D slopes;
-// Distances, m; from 256 on: sine and cosine of each angle between two directions.
+// 256 distances, m; then sine and cosine of the angles that bound the directions.
 layout(std430, binding = 3) readonly buffer Rays { float rays[]; };
 shared float steepest[256];
 
@@ -13,7 +13,7 @@ const float kFinestCell = 0.5;    // m
 const float kNearestRange = 34.0; // m
 const float kInfinity = uintBitsToFloat(0x7F800000u);
 
-// Min height of the drawn ground at a distance between two directions.
+// Min height, m, of the drawn ground at a distance, between the angles that bound a direction.
 float min_height_between(uint direction, float distance) {
     float away = length(vec2(distance, culling.ground.y));
     uint level = 0u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Candidates: impostors, or near trees with branches of a level; ForestLod::list_branches(). With
-// LIST, writes the list of near trees and their places in the pool of branches.
+// Decides, as ForestLod::list_branches(), whether a candidate is an impostor or a near tree, and of
+// which level. With LIST, writes the list of near trees and their places in the pool of branches.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 #include "culling_list.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Instances of the near trees, one invocation per tree: instance, place of its parent in the pool,
-// exit of the parent, and near tree.
+// Writes a node for each instance in the near trees: index of the instance, node of its parent,
+// exit of the parent, index of the near tree. One invocation per tree.
 #include "culling.glsl"
 layout(local_size_x = 64) in;
 #include "culling_tables.glsl"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stable radix sort of branches by key, eight bits a pass (Satish, Harris and Garland 2009,
 // "Designing Efficient Sorting Algorithms for Manycore GPUs"). COUNT counts the digits of each
-// workgroup; SUM makes prefix sums, and in pass 0 first branches of keys; else branches are moved.
+// workgroup; SUM makes prefix sums, in pass 0 also first branches of keys; else branches are moved.
 #include "culling.glsl"
 layout(location = 0) uniform uint shift;
 const uint kDigits = 256u;
@@ -15,7 +15,7 @@ uint part_count() {
 }
 #ifdef SUM
 layout(local_size_x = 1024) in;
-layout(std430, binding = 16) buffer Keys { uint keys[]; }; // by key: count, first
+layout(std430, binding = 16) buffer Keys { uint keys[]; }; // by key: count, first branch
 shared uint partial[1024];
 // Sum of `value` over the invocations before this one. `total`: sum over all invocations.
 uint sum_before(uint value, out uint total) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Replaces the sums of the workgroups of a kernel by the sums over the workgroups before. Runs in
+// Replaces the sum of each workgroup of a kernel by the sum over all workgroups before it. Runs in
 // one workgroup. Sets the sizes of the next dispatches and draws.
 #include "culling.glsl"
 layout(local_size_x = 1024) in;

@@ -23,7 +23,7 @@ struct LodForm {
     float height;
     float low;
     float high;
-    float impostor_radius; // of a sphere around the middle
+    float impostor_radius; // of a sphere around the middle of `low` and `high`
     float width; // max distance from the root, for sway_of()
 };
 LodForm form_at(uint form) {

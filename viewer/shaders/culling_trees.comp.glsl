@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Trees of the visible cells, and added trees: hidden, far, or candidates for branches;
-// ForestLod::visit_tree(). With LIST, writes the lists of far trees and of candidates.
+// Decides, as ForestLod::visit_tree(), whether a tree of a visible cell or an added tree is hidden,
+// far, or a candidate for branches. With LIST, writes the lists of far trees and of candidates.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 #include "culling_list.glsl"
@@ -14,7 +14,7 @@ const uint kFar = 2u << 30;
 #include "culling_tables.glsl"
 #include "culling_horizon.glsl"
 layout(std430, binding = 1) readonly buffer Trees { uvec2 trees[]; }; // three per tree
-// Three per tree: bits of the yaw, number, count of branches or 0; bit 31: removed.
+// Three per tree: yaw as float bits; Tree::number; count of branches, 0: unknown, bit 31: removed.
 layout(std430, binding = 3) readonly buffer Identities { uint identities[]; };
 layout(std430, binding = 8) readonly buffer VisibleCells { uvec4 visible_cells[]; };
 

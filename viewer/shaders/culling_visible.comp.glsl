@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Branches in view and their keys: level, form and instance; ForestLod::cull_branches(). Hidden
-// branches have the last key.
+// Finds the branches in view, like ForestLod::cull_branches(), and their keys, one for each level,
+// form and instance. Hidden branches get the last key.
 #include "culling.glsl"
 layout(local_size_x = 256) in;
 #include "culling_tables.glsl"

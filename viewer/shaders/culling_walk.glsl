@@ -38,8 +38,8 @@ uint walk(uint form, uint tree_number) {
     uint instances = instances_at(form);
     uint exits = exits_at(form);
     uint nodes[kMaxDepth];  // nodes of the instances that are not finished, from the root on
-    uint next[kMaxDepth];   // their next exits
-    uint ends[kMaxDepth];
+    uint next[kMaxDepth];   // index of the next exit of each of these nodes
+    uint ends[kMaxDepth];   // index after its last exit
     uint node = 0u;
     uint depth = 0u;
     uint slot = 0u;

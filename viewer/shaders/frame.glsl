@@ -11,13 +11,13 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 horizon;   // rgb: sky at the horizon; w: side of a texel of the shadow map, m
     vec4 ground;    // rgb: ambient light from below; w: horizon.w as a fraction of the map's side
     vec4 wind;      // xyz: velocity, m/s; w: fraction that varies in gusts
-    mat4 near_from_world[2]; // matrices of the shadow maps near the eye, the nearest first
+    mat4 near_from_world[2]; // clip space of the shadow maps near the eye, the nearest first
     // xy: sides of their texels, m; z: 1 if they are drawn, else 0; w: factor of the light of sky and
     // air, below 1 where the exposure is raised for the shade below crowns.
     vec4 near_maps;
     vec4 crowns;    // xy: middle of the map of crowns, m; z: half its side, m; w: 1 if it is drawn
     vec4 hills;     // x: distance of the hills at the horizon, m, 0: none; y: altitude of their foot, m
-    vec4 wind_before; // wind of the picture before; only with QUALITY 2
-    vec4 time_before; // x: its time, s; y: number of the shift by a part of a pixel, 0: none
+    vec4 wind_before; // `wind` in the previous picture; only with QUALITY 2
+    vec4 time_before; // x: time of that wind, s; y: index of the subpixel shift, 0: none
     vec4 viewport;  // xy: corner of the drawn area, zw: size of the whole picture; pixels
 } frame;

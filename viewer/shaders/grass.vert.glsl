@@ -4,11 +4,11 @@
 #include "crowns.glsl"
 #include "ground_look.glsl"
 // Blades of grass around the eye: an instance per cell of a lattice that is fixed in the world. Each
-// cell has its own numbers, so nothing repeats. leaf.frag.glsl draws them.
+// cell has its own random numbers, so nothing repeats. leaf.frag.glsl draws them.
 layout(binding = 1) uniform sampler2DArray heights; // as in terrain.vert.glsl
 layout(location = 0) uniform ivec2 heights_origin;  // first texel of level 0
-layout(location = 1) uniform ivec4 lattice; // first cell, relative to the origin; cell of the origin
-layout(location = 2) uniform ivec2 sides;   // cells along a side; blades per cell
+layout(location = 1) uniform ivec4 lattice; // xy: first cell from the origin; zw: origin, in cells
+layout(location = 2) uniform ivec2 sides;   // x: cells along a side; y: blades per cell
 const float kCell = 0.32;      // m; TerrainPass has it too
 const float kHeightCell = 0.5; // m, of level 0
 out vec3 front;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Grass on level ground, earth on steep ground and in bare patches.
 layout(binding = 2) uniform sampler2D noise; // tileable
-layout(location = 20) uniform vec2 widest_shift;    // place of the origin in the turned noise tile
-layout(location = 21) uniform vec2 noise_shifts[3]; // place of the origin in the other tiles
+layout(location = 20) uniform vec2 widest_shift;    // uv of the origin in the turned noise tile
+layout(location = 21) uniform vec2 noise_shifts[3]; // uv of the origin in the other tiles
 struct GroundLook {
     float bare; // 0: grass, 1: earth
     float middle;

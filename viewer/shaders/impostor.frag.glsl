@@ -18,7 +18,7 @@ flat in mat3 next_world_from_impostor;
 #endif
 #endif
 in vec3 layer_uv;
-in vec3 plane_shadow_position; // at the middle plane
+in vec3 plane_shadow_position; // at the middle plane of the impostor
 flat in vec3 shadow_step;      // per unit of depth
 #ifndef SHADOW
 in vec2 fog;
@@ -58,7 +58,7 @@ vec2 nearest_range() {
     return next_view.y > 0.0 ? vec2(0.0, next_view.y) : vec2(next_view.z, 1.0);
 }
 #ifdef DEPTH
-// The part of a range of thresholds that a picture of an opacity covers, within the LOD band.
+// Part of a range of thresholds that a view with this opacity covers, within the LOD band.
 vec2 covered_part(vec2 range, float opacity) {
 #ifdef ONE_SAMPLE
     float cover = step(0.5, opacity);

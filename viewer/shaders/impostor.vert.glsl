@@ -2,7 +2,7 @@
 #include "light.glsl"
 #include "impostor.glsl"
 #include "motion.glsl"
-// Bounds of the opaque texels of each tile.
+// Bounds of the opaque texels of each tile, 0 to 1: low corner (xy), high corner (zw).
 layout(std430, binding = 4) readonly buffer Boxes { vec4 boxes[]; };
 layout(location = 0) in uint index; // index of the tree or cluster
 layout(location = 1) in vec2 range;
@@ -24,7 +24,7 @@ flat out mat3 next_world_from_impostor;
 #endif
 invariant gl_Position; // the colour pass compares depths
 out vec3 layer_uv;              // uv; layer
-out vec3 plane_shadow_position; // at the middle plane
+out vec3 plane_shadow_position; // at the middle plane of the impostor
 flat out vec3 shadow_step;      // per unit of depth
 #ifndef SHADOW
 out vec2 fog;

@@ -4,12 +4,12 @@
 // 2014, "High-Quality Temporal Supersampling"; Salvi 2016, "An Excursion in Temporal Supersampling").
 #include "frame.glsl"
 layout(binding = 1) uniform sampler2D picture;
-layout(binding = 2) uniform sampler2D motions; // world position before minus world position, m
+layout(binding = 2) uniform sampler2D motions; // world position: previous picture minus this one, m
 layout(binding = 3) uniform sampler2D depths;  // 0 at infinity
 layout(binding = 4) uniform sampler2D history;
-layout(location = 0) uniform mat4 before_from_world; // without the shift of the picture
-layout(location = 1) uniform mat4 now_from_world;
-layout(location = 2) uniform float weight; // of the picture
+layout(location = 0) uniform mat4 before_from_world; // to the previous clip space, without shift
+layout(location = 1) uniform mat4 now_from_world;    // to clip space, without shift
+layout(location = 2) uniform float weight; // of the picture, against the history
 layout(location = 3) uniform int moves;    // 1: the motions are set
 out vec4 colour;
 
@@ -74,7 +74,7 @@ void main() {
         return;
     }
     vec3 spread = sqrt(max(squares - mean * mean, vec3(0.0)));
-    // The history of a place at rest has wider limits.
+    // The colours of the history have wider limits where the surface is at rest.
     float still = 1.0 - smoothstep(0.02, 0.3, length(step * size));
     vec3 box = mix(1.0, 3.0, still) * spread + vec3(1e-3);
     vec3 old = to_ycocg(sharp_history(uv)) - mean;

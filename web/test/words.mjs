@@ -22,7 +22,7 @@ function below(folder, extension) {
     });
 }
 
-/** The files beside a grammar, and those that it names elsewhere, if it names any. */
+/** The files in the folder of a grammar, and files elsewhere that it names; none if it names no file. */
 function filesOf(path, text) {
   const named = [...text.matchAll(/"([^"\n]+\.\w+)"/g)].map((match) => match[1]);
   if (named.length === 0 && !text.includes('#include')) return {};

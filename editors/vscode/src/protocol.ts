@@ -62,7 +62,7 @@ export interface PlantResult {
   parameters: Parameter[];
   /** The value of `#n`. */
   lastGeneration: number | null;
-  /** null: there is none, for `reason`. */
+  /** null: no plant could be made; see `reason`. */
   plant: Plant | null;
   /** Mistakes in the grammar, or a limit. */
   reason?: 'grammar' | 'limit';

@@ -21,7 +21,7 @@ function element<K extends keyof HTMLElementTagNameMap>(
   return child;
 }
 
-// The policy is applied when an element is added, so the nonce is set before.
+// The Content-Security-Policy applies when an element is added, so its nonce is set before that.
 const { nonce } = document.querySelector('script')!;
 element('style', document.head, { nonce, textContent: css });
 
@@ -37,7 +37,7 @@ function send(): void {
   api.postMessage({ type: 'options', options });
 }
 
-/** A row of a slider, if there is a range, and a number. */
+/** A row with a number field and, if the value has a range, a slider. */
 class NumberRow {
   private readonly name: HTMLElement;
   private readonly slider: HTMLInputElement;

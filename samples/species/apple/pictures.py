@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of apple.lsys: bark.jpg with its normals, blossom.png, spurs with flowers, leaves.png, spurs with
-leaves, and twig.png, a bare twig.
+"""Draws the pictures of apple.lsys: bark.jpg and its normals, blossom.png (spurs with flowers), leaves.png (spurs with
+leaves) and twig.png (a bare twig).
 Usage: samples/species/apple/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of banana.lsys: leaf.png, a leaf torn by the wind, young.png, a whole one, and stem.jpg.
+"""Draws the pictures of banana.lsys: leaf.png (a leaf torn by the wind), young.png (a whole leaf) and stem.jpg.
 Usage: samples/species/banana/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of dandelion.lsys: leaf.png, with lobes that point back, and parachute.png, the hairs of a fruit.
+"""Draws the pictures of dandelion.lsys: leaf.png (with lobes that point back) and parachute.png (the hairs of a fruit).
 Usage: samples/species/dandelion/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of european-beech.lsys: bark.jpg, smooth and grey, spray.png, a level twig with leaves, and
-twig.png, the same without them.
+"""Draws the pictures of european-beech.lsys: bark.jpg (smooth and grey), spray.png (a level twig with leaves) and
+twig.png (the same without leaves).
 Usage: samples/species/european-beech/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

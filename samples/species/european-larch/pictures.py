@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of european-larch.lsys: bark.jpg with its normals, spray.png, a branchlet with tufts of needles,
-and twig.png, the same without them.
+"""Draws the pictures of european-larch.lsys: bark.jpg and its normals, spray.png (a branchlet with tufts of needles)
+and twig.png (the same without needles).
 Usage: samples/species/european-larch/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of lombardy-poplar.lsys: bark.jpg with its normals, spray.png, a twig with leaves, and twig.png,
-the same without them.
+"""Draws the pictures of lombardy-poplar.lsys: bark.jpg and its normals, spray.png (a twig with leaves) and twig.png
+(the same without leaves).
 Usage: samples/species/lombardy-poplar/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

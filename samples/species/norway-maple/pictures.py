@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of norway-maple.lsys: bark.jpg with its normals, spray.png, a twig with pointed, palmate leaves, and
-twig.png, the same without them.
+"""Draws the pictures of norway-maple.lsys: bark.jpg and its normals, spray.png (a twig with pointed, palmate leaves)
+and twig.png (the same without leaves).
 Usage: samples/species/norway-maple/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

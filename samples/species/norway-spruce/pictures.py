@@ -16,7 +16,7 @@ draw = random.Random(7)
 
 
 def shoot(card, place, direction, length, green):
-    """A twig with needles on all sides; those of the end point forwards."""
+    """A twig with needles on all sides; needles at its end point forwards."""
     bend = draw.uniform(-14, 14)
     steps = max(4, int(length / 0.0065))
     points = [place]

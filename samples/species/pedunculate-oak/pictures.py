@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of pedunculate-oak.lsys: bark.jpg with its normals, and spray.png, a twig with lobed leaves, and
-twig.png, the same without them.
+"""Draws the pictures of pedunculate-oak.lsys: bark.jpg and its normals, spray.png (a twig with lobed leaves) and
+twig.png (the same without leaves).
 Usage: samples/species/pedunculate-oak/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import math
 import os

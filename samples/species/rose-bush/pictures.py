@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of rose-bush.lsys: flower.png, a flower, a bud and stamens, and leaves.png, two leaves.
+"""Draws the pictures of rose-bush.lsys: flower.png (a flower, a bud and stamens) and leaves.png (two leaves).
 Usage: samples/species/rose-bush/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

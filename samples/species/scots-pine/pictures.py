@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of scots-pine.lsys: base.jpg and bark.jpg with their normals, the bark below and above, and
-spray.png, a twig with tufts of needles.
+"""Draws the pictures of scots-pine.lsys: base.jpg and bark.jpg (the bark at the base and above) with their normals,
+middle.jpg (the bark between them) and spray.png (a twig with tufts of needles).
 Usage: samples/species/scots-pine/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

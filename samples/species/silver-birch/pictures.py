@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of silver-birch.lsys: bark.jpg, base.jpg with its normals, and spray.png, a hanging twig with
-leaves, and twig.png, the same without them.
+"""Draws the pictures of silver-birch.lsys: bark.jpg, base.jpg and its normals, middle.jpg (the bark between them),
+spray.png (a hanging twig with leaves) and twig.png (the same without leaves).
 Usage: samples/species/silver-birch/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import math
 import os

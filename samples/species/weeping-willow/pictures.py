@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of weeping-willow.lsys: bark.jpg with its normals, spray.png, a piece of a hanging twig, and
-twig.png, the same without leaves.
+"""Draws the pictures of weeping-willow.lsys: bark.jpg and its normals, spray.png (a piece of a hanging twig) and
+twig.png (the same without leaves).
 Usage: samples/species/weeping-willow/pictures.py      Needs Pillow and NumPy (Debian: python3-pil, python3-numpy)."""
 import os
 import random

@@ -69,7 +69,7 @@ void add_limb(const Limb& limb, float side, const glm::vec3& feet, Mesh& mesh) {
         for (std::uint32_t i = 0; i < kSides; ++i) {
             const std::uint32_t low = first + ring * kSides;
             const std::uint32_t next = (i + 1) % kSides;
-            // The mirror image of a triangle has its corners in the other order.
+            // The mirror image of a triangle has its corners in reverse order.
             const std::uint32_t one = side > 0.0F ? low + next : low + kSides + i;
             const std::uint32_t other = side > 0.0F ? low + kSides + i : low + next;
             const std::uint32_t opposite = low + kSides + next;

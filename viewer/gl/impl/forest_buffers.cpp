@@ -33,7 +33,7 @@ constexpr GLuint kBranchColours = 5;
 constexpr GLuint kBranchAttribute = 4;
 
 struct Vertex {
-    std::array<std::int16_t, 3> position{}; // in 1/32767 of the form's box
+    std::array<std::int16_t, 3> position{}; // from the hero's origin, in 1/32767 of boxes_
     std::uint16_t material = 0;
     std::array<std::int8_t, 2> normal{}; // octahedral, in 1/127
     std::array<std::uint8_t, 2> unused{};

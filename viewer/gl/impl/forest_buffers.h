@@ -37,7 +37,7 @@ inline constexpr std::size_t kBranchClasses = 4;
 enum class BufferSet : std::uint8_t { Forest, Impostor, Shadow };
 
 struct DrawCommand {         // layout of glMultiDrawElementsIndirect
-    std::uint32_t count = 0; // of indices
+    std::uint32_t count = 0; // number of indices
     std::uint32_t instance_count = 0;
     std::uint32_t first_index = 0;
     std::int32_t base_vertex = 0;
@@ -153,7 +153,7 @@ private:
         Buffer trees;
         Buffer branches;
         Buffer lists;                   // entries of branches
-        std::vector<Commands> commands; // by class: unblended ones, then blended ones
+        std::vector<Commands> commands; // by command_index()
     };
     [[nodiscard]] static DrawBuffers make_draw_buffers(Device& device);
     /// Class of the branches with this material.

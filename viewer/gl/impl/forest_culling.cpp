@@ -22,7 +22,7 @@ constexpr GLuint kBlockBinding = 1;
 constexpr GLuint kBranches = 0;
 constexpr GLuint kTrees = 1;
 constexpr GLuint kTables = 2;
-constexpr GLuint kIdentities = 3; // also of the rays of the horizon while it is made
+constexpr GLuint kIdentities = 3; // also Rays, while the horizon is computed
 constexpr GLuint kCells = 4;
 constexpr GLuint kState = 5;
 constexpr GLuint kCodes = 6;
@@ -43,9 +43,9 @@ constexpr GLuint kHorizonTexture = 6;
 
 constexpr std::uint32_t kBlock = 256;               // number of elements that a workgroup handles
 constexpr std::uint32_t kSortPart = 2048;           // number of branches that a workgroup sorts
-constexpr std::uint32_t kDigitBits = 8;             // of a digit of the keys, in a pass of the sort
-constexpr std::uint32_t kDetailSteps = 6;           // number of refinements of the detail
-constexpr std::uint32_t kMaxCandidates = 1U << 20U; // max number of trees listed as high enough
+constexpr std::uint32_t kDigitBits = 8;             // bits of a key that a pass of the sort handles
+constexpr std::uint32_t kDetailSteps = 6;           // steps of the search for CullingState::detail
+constexpr std::uint32_t kMaxCandidates = 1U << 20U; // max number of candidates for branches
 constexpr std::uint32_t kRoomForTrees = 1U << 14U;  // number of spare records for added trees
 constexpr std::size_t kIdentityBytes = 12;
 constexpr std::size_t kCellBytes = 48;
@@ -58,7 +58,7 @@ static_assert(sizeof(CullingState) <= kPartBytes && sizeof(CullingState) % 4 == 
 /// What an invocation, or with BySortPart a workgroup, of a kernel handles.
 enum Dispatch : std::uint8_t { ByTree, ByCandidate, ByNearTree, ByBranch, BySortPart };
 
-/// Identity of a tree: bits of the yaw, number, and kRemoved or 0.
+/// Identity of a tree: yaw in radians, a float as bits; Tree::number; kRemoved or 0.
 using Identity = std::array<std::uint32_t, 3>;
 static_assert(sizeof(Identity) == kIdentityBytes);
 

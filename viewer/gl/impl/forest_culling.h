@@ -157,7 +157,7 @@ private:
     void begin(const ForestLod& lod, const ForestBuffers& buffers, Block& block);
     /// Computes horizon_, unless eye and heights are those of the last picture.
     void make_horizon(const View& view);
-    void list_trees(std::uint32_t cells); // of the first `cells` cells
+    void list_trees(std::uint32_t cells); // visible ones, of the first `cells` cells and added
     /// Chooses levels for candidates, then lists and sorts their visible branches.
     void list_branches();
 

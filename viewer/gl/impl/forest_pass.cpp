@@ -32,9 +32,9 @@ constexpr GLuint kNormals = 4;
 constexpr GLuint kBoxes = 4; // in impostor.vert.glsl
 constexpr GLuint kNormalMapTexture = 5;
 constexpr GLint kPickedContent = 20; // in pick.frag.glsl
-// Min of half the side in m of the shadow map, near the ground; and its max.
+// Half the side of the shadow map, m: min, for an eye near the ground, and max.
 constexpr float kMinShadowRange = 45.0F;
-constexpr float kMinFarShadowRange = 120.0F;
+constexpr float kMinFarShadowRange = 120.0F; // min if other maps have the shadows near the eye
 constexpr float kMaxShadowRange = 400.0F;
 constexpr float kGroundBeyond = 3000.0F; // m, range of the ground around the forest
 

@@ -149,7 +149,7 @@ private:
                                     std::uint32_t count);
     /// Binds the program, textures and buffers for impostors. `entries`: buffer of ImpostorEntry.
     void bind_quads(const ProgramObject& program, GLuint entries);
-    void draw_device_impostors(bool clusters, FrameStats& stats); // of compute shaders
+    void draw_device_impostors(bool clusters, FrameStats& stats); // those listed by compute shaders
     void draw_picked_impostors(const ForestPickPrograms& picks, bool clusters); // for draw_picked()
     /// Makes compute shaders select the trees and branches of the prepared frame.
     void select_on_device();

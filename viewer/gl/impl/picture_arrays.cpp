@@ -22,8 +22,8 @@ const Texture& sized(const MaterialPictures& pictures) {
     return pictures.colour != nullptr ? *pictures.colour : *pictures.normal_map;
 }
 
-/// Whether the pictures fill a layer by themselves: their normal map has another size or no
-/// picture.
+/// Whether the pictures need an array of their own: the normal map has another size than the colour
+/// picture, or there is no colour picture.
 bool is_alone(const MaterialPictures& pictures) {
     return pictures.normal_map != nullptr &&
            (pictures.colour == nullptr || pictures.colour->width != pictures.normal_map->width ||
@@ -37,7 +37,7 @@ bool fits(const Texture& picture, const PictureArray& array) {
            4 * (area - std::uint64_t{picture.width} * picture.height) <= kMaxGrowth;
 }
 
-/// The pictures of all layers, as large as a layer unless they are alone; `picture` selects them.
+/// Pictures of all layers, enlarged to the size of layers unless is_alone(). `picture`: which ones.
 std::vector<Texture> layers_of(const PictureArray& array,
                                std::shared_ptr<const Texture> MaterialPictures::*picture) {
     std::vector<Texture> layers;

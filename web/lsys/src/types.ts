@@ -101,9 +101,9 @@ export interface Setting {
   numbers: number[];
   /** "an angle in degrees" */
   accepts: string;
-  /** The value of the kind `word`, and all values that it may have. */
+  /** The value of the kind `word`. */
   word: string;
-  words: string[];
+  words: string[]; // all values that `word` may have
   /** Range of a slider; none unless `max` is above `min`. */
   min: number;
   max: number;
@@ -141,7 +141,7 @@ export interface PlantFacts {
   polygons: number;
   /** Metres. */
   height: number;
-  /** Corners of the box around the axes, without radii. */
+  /** Corners, m, of the box around axes of segments, positions of objects and polygons; without radii. */
   low: [number, number, number];
   high: [number, number, number];
 }
@@ -154,11 +154,11 @@ export interface Skeleton {
     end: Float32Array;
     /** Metres, at the base and at the tip of each segment. */
     radii: Float32Array;
-    /** The segment before it on its path; 0xFFFFFFFF: none. */
+    /** Index of the segment before it on its path; 0xFFFFFFFF: none. */
     parent: Uint32Array;
     /** Number of open brackets: 0 is the trunk. */
     order: Uint32Array;
-    /** Index of the palette, or 0x01000000 + RGB. */
+    /** Index in the palette, or 0x01000000 + RGB. */
     colour: Uint32Array;
   };
   objects: {

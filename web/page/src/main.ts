@@ -129,7 +129,7 @@ async function run(): Promise<void> {
 async function show(text: string, isCurrent: () => boolean): Promise<void> {
   grammar = await engine.call('compile', text, options());
   say(grammar.diagnostics);
-  // With ranges, probabilities or a stated seed the values include the seed.
+  // The seed has a control if the grammar has ranges, probabilities or a `#set seed`.
   const isRandom = /[{~]|#set\s+seed/.test(text.replace(/#(param|define)[^;]*;|\/\/.*/g, ''));
   controls.show(grammar, text, isRandom);
   showGenerations(grammar.generations ?? 0);
