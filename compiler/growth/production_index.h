@@ -48,8 +48,8 @@ private:
     void find_relevant_parameters();
     /// Sets depends_on_age_.
     void find_age_dependence();
-    /// Calls visit(parameter) for each formal of the predecessor that the instructions, or the
-    /// local values if the instructions use any, read. Returns whether one of them calls step().
+    /// Calls visit(parameter) for each formal of the predecessor that the instructions, or local
+    /// values used by them, read. Returns whether the instructions or these values call step().
     template <typename Visit>
     bool scan(std::uint32_t production, InstructionRange instructions, Visit&& visit) const;
 

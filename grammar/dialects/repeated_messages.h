@@ -14,8 +14,8 @@ namespace lsys {
 /// its labels. Diagnostics without a file and notes stay as they are.
 void merge_repeated_messages(Diagnostics& diagnostics, std::size_t first);
 
-/// Marks, by a fact, a warning about a statement that may be lost: another one replaces it, or the
-/// file is cut off there.
+/// Marks, by a fact, a warning about a statement that may be lost, because another statement
+/// replaces it or because the file is cut off there.
 void mark_lost_statement(Diagnostic& diagnostic);
 
 /// If a statement may be lost, drops the warnings that would follow: modules that never occur or are

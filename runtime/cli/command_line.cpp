@@ -466,7 +466,7 @@ struct Complete {
             FilePolicy& files = given.run.files;
             if constexpr (std::is_same_v<Command, ImportCommand>) {
                 if (files.is_untrusted && files.root.empty()) {
-                    files.root = given.folder; // of --all
+                    files.root = given.folder; // the folder of --all
                 }
             }
             if constexpr (std::is_same_v<Command, LspCommand>) {

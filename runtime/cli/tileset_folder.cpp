@@ -108,7 +108,7 @@ void TilesetFolder::make() {
 
 void TilesetFolder::write(std::uint64_t number) {
     if (number == root()) {
-        name_files(); // the root shows that the tileset is complete
+        name_files(); // before the root, which shows that the tileset is complete
         write_numbered(number);
         name_files();
     } else {

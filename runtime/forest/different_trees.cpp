@@ -196,7 +196,7 @@ std::uint64_t count_different_trees(const Forest& forest, std::uint32_t threads)
 }
 
 std::uint64_t count_different_trees(const Forest& forest, std::span<const Tree> trees) {
-    MomentsOfCaches of_caches; // a forest may have many species; only those of `trees`
+    MomentsOfCaches of_caches; // only caches of `trees`, since a forest may have many species
     std::vector<TreeShape> shapes;
     for (const Tree& tree : trees) {
         const InstanceCache& cache = forest.cache_of(tree);

@@ -23,7 +23,7 @@ struct ForestStage {
     /// Radius in m of the crowns of plants of scale 1 without neighbours; 0 unless the species
     /// senses its surroundings.
     double crown_radius = 0.0;
-    /// m, of the plants of scale 1 without neighbours: the mean of its trees 0 to 15; 0 unless some
+    /// Mean height in m of the trees numbered 0 to 15 at scale 1, without neighbours; 0 unless some
     /// species of the forest senses its surroundings.
     double plant_height = 0.0;
 };

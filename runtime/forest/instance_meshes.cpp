@@ -90,7 +90,7 @@ ItemTriangles find_item_triangles(const Mesh& mesh,
     for (std::uint64_t t = 0; t < count; ++t) {
         result.triangles[result.first[owner(t)]++] = static_cast<std::uint32_t>(t);
     }
-    for (std::uint64_t i = item_count; i > 0; --i) { // restore the start offsets, now ends
+    for (std::uint64_t i = item_count; i > 0; --i) { // shift the ends back to starts
         result.first[i] = result.first[i - 1];
     }
     result.first[0] = 0;

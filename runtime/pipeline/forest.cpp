@@ -241,7 +241,7 @@ struct GrownStage {
     /// The scene wants the species to sense neighbours, but no environment of its grammar reads
     /// shade.
     bool cannot_sense_neighbours = false;
-    std::vector<BranchOrigin> origins; // by instance; empty for a stage without `origins_of`
+    std::vector<BranchOrigin> origins; // by instance; empty if grow_stage() got no `origins_of`
     std::vector<std::string> programs; // names of environments of kind Program
 };
 

@@ -130,7 +130,7 @@ Outcome<ForestLods> make_forest_lods(const GrownForest& grown,
 
     // Choose levels by distance. Each combination of species, stage and level in use becomes a
     // species of the result.
-    constexpr float kLines = 1080.0F; // height of the picture for which levels are chosen
+    constexpr float kLines = 1080.0F; // pixels, height of the picture for which levels are chosen
     constexpr float kHalfCotangent = 0.8660254F; // 1 / (2 tan 30 degrees)
     using KindKey = std::tuple<std::uint32_t, std::uint32_t, std::size_t>;
     std::map<KindKey, std::uint16_t> kinds;

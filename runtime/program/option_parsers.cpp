@@ -371,7 +371,7 @@ to_usage_error(const CLI::ParseError& error, const CLI::App& app, const std::str
         const std::string extra = has_code(CLI::ExitCodes::RequiredError) ? *unknown
                                   : extras.empty()                        ? std::string()
                                                                           : extras.front();
-        if (extra == "--" && app.get_subcommands({}).empty()) { // behind a command
+        if (extra == "--" && app.get_subcommands({}).empty()) { // `app` is a command
             usage.message = "behind `--` stand names of files only";
             usage.help = "options stand before it";
             return usage;

@@ -237,7 +237,7 @@ EnvironmentResolver::Reading EnvironmentResolver::read_entries(const SenseNode& 
                                                fmt::join(environment_keys_of(kind), "`, `")));
         reading.is_complete = false;
     }
-    // A word is a value where a shape or a file name must follow; the latter is then an error.
+    // A word that is no key is the value of a key that takes a shape or file; a file needs quotes.
     const auto is_value = [&](const SetValue& word, const KeyedValues& before) {
         const EnvironmentKey* const key = find_environment_key(resolution_.text(before.key));
         return key != nullptr && before.values.count == 0 &&
@@ -256,7 +256,7 @@ EnvironmentResolver::Reading EnvironmentResolver::read_entries(const SenseNode& 
             expressions_.is_constant(written.key)) {
             report_bare_constant(resolution_, DiagnosticCode::BadEnvironment,
                                  {written.span, true, written.key});
-            entries.pop_back(); // the word takes the place of its value
+            entries.pop_back(); // the constant stands in place of its value
             continue;
         }
         if (!is_known) {

@@ -33,8 +33,8 @@ private:
     [[nodiscard]] bool check_shape(const ProductionNode& node);
     /// Checks the number of modules and the contexts of a head of a later stage.
     [[nodiscard]] bool check_stage(const ProductionNode& node);
-    /// Checks that a production of #down has no left context, one of #up no right context, and
-    /// either one module.
+    /// Checks that a production of #down has no left context and one of #up no right context, and
+    /// that the predecessor is one module.
     [[nodiscard]] bool check_sweep(const ProductionNode& node);
 
     ModuleReading& reading_;

@@ -124,7 +124,7 @@ void MaterialResolver::read_entries(const MaterialNode& node, ProgramMaterial& m
             report_unknown_key(written, entries.empty() ? Entry{} : entries.back());
             if (!entries.empty() &&
                 entries.back().written.values.count < entries.back().key->count) {
-                entries.pop_back(); // the word takes the place of the key's value
+                entries.pop_back(); // the unknown word may be the value of this key
             }
             continue;
         }

@@ -41,7 +41,7 @@ bool is_comment_text(std::string_view text) {
 
 /// The length of the comment at the start of `rest`, the rest of a line; 0 if none begins there.
 /// `is_first`: only blanks stand before `rest` in the line; `is_indented`: at least one blank
-/// stands there; `has_blank`: a blank stands directly before `rest`, or nothing in the file.
+/// stands there; `has_blank`: a blank stands directly before `rest`, or `rest` begins the file.
 std::size_t comment_length(std::string_view rest, bool is_first, bool is_indented, bool has_blank) {
     if (rest.starts_with("//")) {
         const bool is_spaced = rest.size() == 2 || is_blank(rest[2]);
@@ -82,7 +82,7 @@ std::string without_comments(FileId file, std::string_view text, const ParseCont
                     context->diagnostics.add(DiagnosticCode::ForeignSyntax,
                                              {file, place, place + 2}, "`/*` is never closed");
                 }
-                close = end; // so that the statements after the comment are read
+                close = end; // the comment ends with its line, so that the lines after it are read
             }
             const std::size_t after = close == end ? end : close + 2;
             blank(at, after);

@@ -348,7 +348,7 @@ void AbopWriter::write_modules(SourceSpan list, Place place) {
             continue;
         }
         if (place == Place::List && is_one_of(whole[at], ",;:")) {
-            ++at; // a separator; a symbol only before parameters
+            ++at; // a separator; `,` and `;` are symbols only with parameters
             continue;
         }
         Symbol symbol;

@@ -123,8 +123,8 @@ private:
         }
     }
 
-    /// Rules whose left side matches the modules up to `last`, so that the parameters of `last`
-    /// follow the matched text, which takes them.
+    /// Rules whose left side matches the modules up to `last`. The parameters of `last` follow the
+    /// matched text; they are then parameters of the last symbol of the rule's right side.
     [[nodiscard]] std::vector<std::size_t> matching_rules(const std::vector<PlacedModule>& modules,
                                                           std::size_t last) const {
         std::vector<std::size_t> found;

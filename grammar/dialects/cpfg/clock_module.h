@@ -9,7 +9,7 @@
 
 namespace lsys {
 
-/// Moves the statements of such a production to `StartEach:`. Leaves all others.
+/// Moves the statements of such a production to `StartEach:`. Others keep theirs.
 void move_statements_of_clock(CpfgSession& session);
 
 } // namespace lsys

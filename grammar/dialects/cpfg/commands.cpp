@@ -75,8 +75,8 @@ private:
         }
     }
 
-    /// Removes, of an original and its copies, those with modules that the axiom does not lead to.
-    /// If these are all, the original stays, for the warning about it.
+    /// Removes productions, originals and copies, that match a command which the axiom never leads
+    /// to. If an original and all its copies do, the original stays, so that a warning reports it.
     void remove_unused(std::vector<CpfgProduction>& all,
                        const std::vector<std::size_t>& originals) const {
         std::set<Command> written;

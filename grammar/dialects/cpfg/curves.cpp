@@ -228,7 +228,7 @@ std::vector<double> curve_table(const CpfgCurve& curve) {
         double low = 0.0;
         double high = 1.0;
         CurvePoint point;
-        for (int step = 0; step < 60; ++step) { // fewer unless the curve does not reach x
+        for (int step = 0; step < 60; ++step) { // ends earlier if the curve reaches x
             const double middle = (low + high) / 2.0;
             point = spline(curve.points, kDegree, middle * spans);
             (point.x > x ? high : low) = middle;

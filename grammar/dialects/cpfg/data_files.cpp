@@ -93,7 +93,7 @@ void CpfgExpressions::read_numbers(const ForeignNode& call) {
                 unsupported(call.span, "`fscanf` of anything but numbers, in `Start:`"));
         }
         for (std::size_t i = 2; i < call.parts.size(); ++i) {
-            const ForeignNode address = tree_[call.parts[i]]; // its uses need a value
+            const ForeignNode address = tree_[call.parts[i]]; // the variable becomes 0
             if (address.kind == ForeignKind::Address &&
                 tree_[address.parts[0]].kind == ForeignKind::Name) {
                 assign(tree_[address.parts[0]].text, number_node(0.0, address.span), address.span);

@@ -54,7 +54,7 @@ public:
     void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
 
 private:
-    using Variables = std::map<std::string, ForeignId>; // leaf nodes
+    using Variables = std::map<std::string, ForeignId>; // by name: a leaf node
     /// A file of numbers, opened by `fopen` in `Start:`.
     struct DataFile {
         std::string text;

@@ -324,7 +324,7 @@ private:
 
     void write_widths(SourceSpan nowhere) {
         const SourceSpan place = width_place_.value_or(nowhere);
-        // Where no line says it, a model that sets widths has them in metres.
+        // If no line of the view file states the unit, widths that the model sets are in metres.
         const bool is_pixel = is_pixel_.value_or(!uses_.sets_widths);
         if (is_pixel) {
             looks_.statements.push_back({"#set width_unit pixels;\n", place});
@@ -343,7 +343,7 @@ private:
     std::optional<SourceSpan> place_;       // place of the last line about a tropism
     double scale_ = 1.0;                    // `initial scale:`
     std::optional<double> width_;           // initial line width
-    std::optional<bool> is_pixel_;          // widths are in pixels; unset: no line says it
+    std::optional<bool> is_pixel_;          // widths are in pixels; unset: no line states the unit
     std::optional<SourceSpan> width_place_; // place of the last line about widths
 };
 

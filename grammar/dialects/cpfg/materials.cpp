@@ -42,7 +42,7 @@ std::string material_text(std::string_view record) {
     Rgb colour = rgb_at(record, kDiffuse);
     const Rgb ambient = rgb_at(record, kAmbient);
     const Rgb emission = rgb_at(record, kEmission);
-    if (colour == Rgb{}) { // seen by ambient light and its own only
+    if (colour == Rgb{}) { // black: only ambient and emitted light show the surface
         for (std::size_t i = 0; i < colour.size(); ++i) {
             colour[i] = std::max(ambient[i], emission[i]);
         }

@@ -87,9 +87,9 @@ private:
                !may_stay(stage, modules);
     }
 
-    /// Whether no other production of the stage may apply to the modules: to the first alone before
-    /// one of the sequence, to more or fewer of them, or to some of them if none of the sequence
-    /// applies.
+    /// Whether no other production of the stage may apply to the modules. Before a production of
+    /// the sequence that always holds, none may match the first module alone, or more or fewer
+    /// modules from it on; without such a production, none may begin with any of the modules.
     [[nodiscard]] bool is_first(Stage stage, const Modules& modules) {
         bool always = false;      // a production of the whole sequence always holds
         bool parts_alone = false; // another production begins with a module of the sequence

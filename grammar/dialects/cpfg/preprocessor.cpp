@@ -425,7 +425,7 @@ private:
     std::vector<Condition> conditions_; // one per #if without #endif yet, the innermost last
     std::vector<std::string> active_;   // macros that are being replaced
     std::size_t expanded_ = 0;          // bytes written by macros so far
-    bool reported_ = false;             // an error has said that they are too many
+    bool reported_ = false;             // the error about kMaxExpanded has been reported
 };
 
 } // namespace

@@ -312,13 +312,13 @@ void CpfgExpressions::run(const CpfgStatement& statement) {
 void CpfgExpressions::call_statement(const CpfgStatement& statement) {
     const ForeignNode called = tree_[statement.value];
     if (called.kind != ForeignKind::Call) {
-        return; // an unused value
+        return; // an expression without effect
     }
     const bool known =
         std::find(kProcedures.begin(), kProcedures.end(), called.text) != kProcedures.end();
     const bool is_read = !called.parts.empty() && files_.count(tree_[called.parts[0]].text) != 0;
     if (called.text == "fclose" && is_read) {
-        return; // nothing is written
+        return; // needs no equivalent in .lsys
     }
     if (called.text == "fscanf") {
         read_numbers(called);

@@ -333,8 +333,8 @@ void CpfgWriter::name_local_values() {
     }
 }
 
-/// Appends the name of a parameter; of an expression, which is an error, all names, so that their
-/// uses give no messages of their own.
+/// Appends the name of a parameter. For an expression, an error here, appends all names in it, so
+/// that their uses give no further messages.
 void CpfgWriter::append_names(ForeignId argument, std::vector<std::string>& names) const {
     std::vector<ForeignId> work{argument};
     while (!work.empty()) {

@@ -12,9 +12,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::string_view kMoves = "FHGfh"; // a length, and for those that draw a width
+constexpr std::string_view kMoves = "FHGfh"; // parameters: length, and if it draws, width
 constexpr std::string_view kDrawing = "FHG";
-constexpr std::string_view kTurns = "+-&^/\\"; // an angle
+constexpr std::string_view kTurns = "+-&^/\\"; // parameter: angle
 
 bool is_in(std::string_view set, std::string_view symbol) {
     return symbol.size() == 1 && set.find(symbol) != set.npos;

@@ -44,7 +44,7 @@ NUMBER   ([0-9]+("."[0-9]*)?|"."[0-9]+)([eE][-+]?[0-9]+)?
     BEGIN(VALUE);
     return Token::TOK_KEY;
 }
-[A-Za-z][A-Za-z]+([ _-]+[A-Za-z]+)*{BLANK}*":"{BLANK}*[^=\n\0\r\t :][^=\n\0]*/"\n" { /* no rule, which has a `=` */
+[A-Za-z][A-Za-z]+([ _-]+[A-Za-z]+)*{BLANK}*":"{BLANK}*[^=\n\0\r\t :][^=\n\0]*/"\n" { /* not a rule: it has no `=` */
     const std::string_view line(yytext, static_cast<std::size_t>(yyleng));
     const std::string_view key = line.substr(0, line.find(':'));
     const int kind = lsys::houdini_key(key) == "rule" ? 0 : session.any_key_token(key);

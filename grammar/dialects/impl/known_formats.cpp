@@ -195,7 +195,7 @@ std::optional<KnownFormat> find_plain_text(std::span<const std::string_view> lin
             at = end + 1;
         }
     }
-    constexpr std::size_t kWordsPerOther = 6; // numbers, names, single letters
+    constexpr std::size_t kWordsPerOther = 6; // min words for each number, name or single letter
     return has_sentence && words >= kMinWords && words >= kWordsPerOther * others
                ? std::optional(KnownFormat{"plain prose", 0})
                : std::nullopt;

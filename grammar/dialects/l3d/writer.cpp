@@ -51,7 +51,7 @@ void L3dWriter::warn(std::uint32_t begin, std::uint32_t end, const std::string& 
 /// Reports a parameter that reaches to the end of its text, which may be a mistake there.
 void L3dWriter::warn_unclosed(std::uint32_t at) {
     if (!is_quiet_) {
-        has_warned_digit_ = true; // the digits of this parameter
+        has_warned_digit_ = true; // no warning for the digits of this parameter
         mark_lost_statement(context_.diagnostics.add(DiagnosticCode::ForeignQuirk,
                                                      {file_, at, at + 1},
                                                      "this parameter has no `)` in its text"));

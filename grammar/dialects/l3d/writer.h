@@ -23,7 +23,7 @@ public:
     [[nodiscard]] SourceSpan key(SourceSpan text);
     /// Writes an axiom or a right side.
     void write(SourceSpan text);
-    /// Whether to leave out warnings: those about the axiom, if it may be a broken rule.
+    /// True: reports no warnings; for an axiom that may be a broken rule.
     void set_quiet(bool is_quiet) { is_quiet_ = is_quiet; }
     /// Writes a left side without warnings.
     void write_key(SourceSpan text);

@@ -27,7 +27,7 @@ struct LayoutRow {
     std::uint32_t head = 0;
     std::uint32_t first_line = 0;         // end column of the author's first line
     std::uint32_t first_module_width = 0; // columns of the first module, on the line of the head
-    std::array<std::uint32_t, kCells - 1> cells{}; // widths, then blanks to add
+    std::array<std::uint32_t, kCells - 1> cells{}; // widths; after line_up(): blanks to add
     std::uint8_t cell_count = 1;
     StatementShape shape = StatementShape::Other;
     bool list_below = false;        // the modules begin on the next line

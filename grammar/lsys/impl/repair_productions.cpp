@@ -44,7 +44,7 @@ void StatementRepair::local_values() {
     if (let == std::string_view::npos) {
         return;
     }
-    // `let a = 1; b = 2 :`
+    // Replaces the `;` between local values by `,`, as in `let a = 1; b = 2 :`.
     for (int i = 0; i < 16 && statement_.end < text().size() && char_at(statement_.end) == ';';
          ++i) {
         const bool has_colon =

@@ -320,8 +320,8 @@ Token start_without_hash(ParseSession& session, std::string_view word) {
         after_statement && (scan.keyword == Keyword::Label || scan.keyword == Keyword::Axiom);
     // Text after a `;` may belong to the statement before it; then the `;` and the fixes of that
     // statement are wrong. So first_diagnostic stays the index of the first diagnostic of that
-    // statement, whose fixes become offers if this text is an error. A statement after a statement
-    // with an error may belong to it, too.
+    // statement, whose fixes become offers if this text is an error. The same holds for text that
+    // is a statement, if the statement before it has an error without a certain fix.
     if (!after_statement || (is_statement && !session.context.diagnostics.has_doubtful_error_from(
                                                  scan.first_diagnostic))) {
         scan.first_diagnostic = session.context.diagnostics.all().size();

@@ -224,7 +224,7 @@ private:
 
     const Bytecode& bytecode_;
     std::map<std::string, FilePlaces> files_; // by path
-    std::vector<std::uint32_t> numbers_;      // by place
+    std::vector<std::uint32_t> numbers_;      // by Origin::place; kNoSegment: no number yet
     Json all_ = Json::array();
 };
 

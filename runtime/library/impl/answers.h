@@ -16,9 +16,9 @@ namespace lsys::v0 {
 /// The query about the places of a word. The result refers to the data of `word`.
 [[nodiscard]] EnvironmentQuery query_of(const SensedWord& word);
 
-/// Converts the answers to `count` places to those of an Environment. `sizes`: by place, the number
-/// of `answers` to it. Returns a failure if the answers are too few or too many, or if the function
-/// gave a reason for not answering.
+/// Converts the answers to `count` places to those of an Environment. `answers` receives all
+/// numbers, `sizes` the count of numbers per place. Returns a failure if the answers are too few or
+/// too many, or if the function gave a reason for not answering.
 [[nodiscard]] std::optional<EnvironmentFailure> take_answers(const EnvironmentAnswers& given,
                                                              std::size_t count,
                                                              std::vector<float>& answers,

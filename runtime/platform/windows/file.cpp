@@ -171,7 +171,7 @@ Reason check_writable(const std::string& path) {
     if (attributes == INVALID_FILE_ATTRIBUTES) {
         return last_reason();
     }
-    // A folder may have this attribute and still take files.
+    // A folder takes files even if it has the attribute READONLY.
     constexpr DWORD kKind = FILE_ATTRIBUTE_READONLY | FILE_ATTRIBUTE_DIRECTORY;
     return (attributes & kKind) == FILE_ATTRIBUTE_READONLY ? EACCES : 0;
 }

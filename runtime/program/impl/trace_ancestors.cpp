@@ -6,7 +6,7 @@ namespace lsys {
 
 void TracePrinter::written(const TracedPlace& place) {
     if (place.back.empty() && grammar_.is_module_file && !trace_.axiom) {
-        return; // the heading is sufficient
+        return; // the heading says all that is known
     }
     out_ += '\n';
     if (!place.back.empty() && !place.back.back().steps.empty()) {
@@ -49,7 +49,7 @@ void TracePrinter::written_by(const AncestorStep& step) {
 std::optional<Label> TracePrinter::successor_label(const ModuleTrace& trace,
                                                    std::uint64_t offset) const {
     if (trace.production == kNoProduction) {
-        return std::nullopt; // an answer
+        return std::nullopt; // an answer set the parameters of the module
     }
     const TableRange codes = production(trace.production).successor.codes;
     if (source_of(trace.production) == nullptr || offset >= codes.count) {

@@ -297,7 +297,7 @@ class Instances:
     @property
     def meshes(self) -> list[Mesh]: ...
     @property
-    def array(self) -> NDArray[np.void]: ...  # of INSTANCE, by group
+    def array(self) -> NDArray[np.void]: ...  # of type INSTANCE, sorted by group
     @property
     def groups(self) -> NDArray[np.void]: ...  # of INSTANCE_GROUP: draw calls
     def read_matrices(self, to: NDArray[np.float32], first: int = 0) -> None: ...

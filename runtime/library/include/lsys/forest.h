@@ -117,7 +117,7 @@ public:
     /// One mesh for each species and stage, with all heroes; a group draws some of its parts.
     [[nodiscard]] const std::vector<Mesh>& meshes() const;
     [[nodiscard]] const std::vector<InstanceGroup>& groups() const;
-    [[nodiscard]] std::span<const Instance> all() const; // by group
+    [[nodiscard]] std::span<const Instance> all() const; // sorted by group
     /// Writes `count` instances from `first` on as matrices of 16 floats, column by column, on
     /// several threads. `stride`: bytes from one to the next; 0: 64. Precondition: first + count <=
     /// all().size().
