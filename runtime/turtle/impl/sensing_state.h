@@ -22,7 +22,7 @@ namespace lsys {
 
 enum class SensingStep : std::uint8_t {
     NoEffect,
-    Yaw, // by a constant angle
+    Yaw, // Yaw, Pitch and Roll: by a constant angle
     Pitch,
     Roll,
     Forward, // a move without tropism
@@ -110,7 +110,7 @@ struct SensingTurtle::State {
     SensingOptions options;
     ActionTable table;
     std::vector<SensingAction> actions; // by code
-    std::vector<double> areas;          // by code, of an object of size 1
+    std::vector<double> areas;          // by code: m^2, of an object of size 1
     SensingBrush now;                   // state at the module being executed
     std::vector<SensingBrush> stack;    // states saved by the open `[`, the innermost last
     SensingPolygons polygons;
