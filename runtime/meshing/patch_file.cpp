@@ -249,7 +249,8 @@ private:
 
     bool append_patch(const ControlPoints& points) {
         const std::uint64_t vertices = std::uint64_t{rows_ + 1} * (columns_ + 1);
-        used_ += vertices * (2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 64) + // 64: smooth_edges()
+        // 64: bytes per vertex in smooth_edges()
+        used_ += vertices * (2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 64) +
                  std::uint64_t{rows_} * columns_ * 6 * sizeof(std::uint32_t);
         if (2 * used_ > max_bytes_) {
             error_ = memory_error("its mesh", max_bytes_);
