@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    // The determinant of three dimensions has 6 * 8 products of 4 numbers each.
+    // The determinant of three dimensions is a sum of 6 * 8 products, each a sum of 4 numbers.
     std::array<double, 192> parts_{};
     std::size_t count_ = 0;
 };
