@@ -87,7 +87,7 @@ struct SensingTurtle::State {
     /// Reports the waiting sense modules up to index `index` of the piece.
     void report_up_to(std::uint64_t index);
     void forward(double length, bool adds_corners); // draws a segment, which first bends
-    void move(double length, bool adds_corners);    // without a segment
+    void move(double length, bool adds_corners);    // moves without drawing
     /// Moves along the second heading; the frame stays unchanged.
     void move_secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
     void turn_by(std::uint8_t argument_count, const float* arguments); // pitches, rolls and yaws
