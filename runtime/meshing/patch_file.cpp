@@ -281,7 +281,7 @@ private:
         const glm::dvec3 normal = glm::cross(down, across);
         const double length = glm::length(normal);
         mesh_.positions.emplace_back(weighted(points, bernstein(s, false), bernstein(t, false)));
-        // Without a normal of its own a vertex gets that of the triangles in smooth_edges().
+        // smooth_edges() gives a vertex without a normal the mean normal of its triangles.
         mesh_.normals.emplace_back(length > 0.0 ? normal / length : glm::dvec3(0.0));
         mesh_.texture_coordinates.emplace_back(t, s);
     }

@@ -27,7 +27,7 @@ struct ContourRun {
     friend bool operator==(const ContourRun&, const ContourRun&) = default;
 };
 
-/// The columns of a ring: those of each run, so that corners and the seam have two columns.
+/// The columns of a ring. Each run has columns of its own, so corners and the seam have two.
 struct ContourLayout {
     std::vector<ContourRun> runs;
     bool closed = false;         // the last column of a ring is the first one again
