@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kPoll(20); // between looks at the flag of the caller
+constexpr std::chrono::milliseconds kPoll(20); // time between two reads of the caller's flag
 constexpr std::chrono::seconds kGrace(1);      // from the end of the time to the call of `end_late`
 
 /// `seconds` from now; at most a year, because sums of larger values overflow.

@@ -11,8 +11,8 @@ namespace lsys {
 class Deadline {
 public:
     /// Sets stop() to true after `seconds`, or when `cancelled`, which may be null, becomes true.
-    /// Calls `end_late`, on another thread, if the deadline still exists a second after the time
-    /// has passed; may be empty.
+    /// Calls `end_late`, on another thread, if the Deadline still exists a second after the time
+    /// has passed; `end_late` may be empty.
     Deadline(double seconds, const std::atomic<bool>* cancelled, std::function<void()> end_late);
     Deadline(const Deadline&) = delete;
     Deadline& operator=(const Deadline&) = delete;

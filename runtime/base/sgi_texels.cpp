@@ -15,13 +15,13 @@ namespace lsys {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 512;
-constexpr std::size_t kChannels = 4; // of the texels
+constexpr std::size_t kChannels = 4; // channels of a texel
 
 class SgiFile {
 public:
     explicit SgiFile(std::string_view bytes) : bytes_(bytes) {}
 
-    /// Returns false if the header is of no picture that is read.
+    /// Returns false if pictures with this header cannot be read.
     bool read_header() {
         if (bytes_.size() < kHeaderBytes) {
             return false;
@@ -137,7 +137,8 @@ read_sgi_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t 
     if (!fits) {
         return Error{"there is no memory to read an SGI picture"};
     }
-    // One channel: grey. Two: grey and opacity.
+    // Channel of the file for each channel of a texel, by number of channels of the file - 1. One
+    // channel: grey. Two: grey and opacity.
     constexpr std::array<std::array<std::uint32_t, kChannels>, kChannels> kSources{
         {{0, 0, 0, 4}, {0, 0, 0, 1}, {0, 1, 2, 4}, {0, 1, 2, 3}}}; // 4: opaque
     for (std::uint32_t row = 0; row < file.rows; ++row) {

@@ -190,7 +190,7 @@ double slow_atan2(double y, double x, bool from_half_turn) {
     const int exponent = y_exponent - x_exponent;
     const bool is_steep = exponent > 0 || (exponent == 0 && x_part < y_part);
     const WideFixedPoint quotient = is_steep ? x_part / y_part : y_part / x_part;
-    const int down = is_steep ? -exponent : exponent; // at most 0
+    const int down = is_steep ? -exponent : exponent; // at most 0; t is quotient * 2^down
     if (down <= -kSmall && !is_steep && !from_half_turn) {
         WideFixedPoint least;
         least.words[0] = 1;

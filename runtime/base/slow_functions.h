@@ -31,7 +31,7 @@ struct ReducedAngle {
 /// Precondition of slow_sine() and slow_cosine(): angle < 1 rad.
 [[nodiscard]] WideFixedPoint slow_sine(const WideFixedPoint& angle);
 [[nodiscard]] WideFixedPoint slow_cosine(const WideFixedPoint& angle);
-/// index * pi / 256.
+/// index * pi / 256 rad.
 [[nodiscard]] WideFixedPoint table_angle(std::uint32_t index);
 
 /// exp(x), rounded. Precondition: 2^-60 < |x| < 800.

@@ -71,7 +71,7 @@ private:
     std::vector<std::int8_t> branch_changes_; // by code, Change::branches
     std::int64_t branches_ = 0;               // number of open branches
     std::int64_t polygons_ = 0;               // number of open polygons
-    std::int64_t cut_ = 0; // number of open brackets from the cut branch inwards; 0: nothing is cut
+    std::int64_t cut_ = 0; // number of open brackets since the cut, its branch included; 0: no cut
     bool has_branch_close_ = false;  // the program has modules `]`
     bool has_polygon_close_ = false; // the program has modules `}`
 };

@@ -339,7 +339,7 @@ void StepTracer::on_pass(const DerivationPass& facts) {
     state.first_of_pass = state.traces.size();
     state.trace_of_place.assign(state.places.size(), kNoTrace);
     if (senses || sweeps) {
-        return; // explained by their results
+        return; // the call after the pass explains them
     }
     const TracedWord word(state.bytecode, *facts.in);
     if (facts.kind == DerivationPass::Kind::Cut) {

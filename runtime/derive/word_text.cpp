@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::string_view kSymbols = "+-/\\^&|$!\"'.[]{}%";
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
-/// Limits for printing two modules at a time: max codes of the program, min modules of the word.
-constexpr std::size_t kMaxPairedCodes = 64;
-constexpr std::size_t kMinPairedWord = 4096;
+/// Limits for printing two modules at a time.
+constexpr std::size_t kMaxPairedCodes = 64;  // max codes of the program
+constexpr std::size_t kMinPairedWord = 4096; // min modules of the word
 /// Room for the longest binary32 as text and a comma or parenthesis.
 constexpr std::size_t kNumberBytes = 24;
 

@@ -116,7 +116,7 @@ public:
     [[nodiscard]] virtual bool restore(std::string_view state) { return state.empty(); }
 };
 
-/// The makers of each kind. `declared` and `files` outlive the result; `number` is the index of the
+/// The maker of each kind. `declared` and `files` outlive the result; `number` is the index of the
 /// environment in Bytecode::environments, a part of the key of its draws.
 [[nodiscard]] std::unique_ptr<Environment> make_shadow(const BytecodeEnvironment& declared,
                                                        const EnvironmentContext& context);

@@ -95,8 +95,8 @@ private:
         return trace(word.places, LeafAreaTable(areas, box, extinction), box, answers);
     }
 
-    /// Below these sizes a grid is faster than a hash table.
-    static constexpr std::uint64_t kMinGrid = std::uint64_t{1} << 16; // cells
+    /// Up to kMinGrid + kGridCellsPerOrgan * organs cells a grid is faster than a hash table.
+    static constexpr std::uint64_t kMinGrid = std::uint64_t{1} << 16;
     static constexpr std::uint64_t kGridCellsPerOrgan = 32;
 
     [[nodiscard]] static CellBox box_of(const std::vector<CellArea>& areas) {

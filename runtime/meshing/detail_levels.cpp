@@ -19,7 +19,7 @@ namespace {
 // Max ratio of the radius of widened wood to DetailLevel::error: the wood is then two pixels wide.
 constexpr float kMaxRadiusErrors = 2.0F;
 
-/// Whether all vertices of each part have one colour.
+/// Whether no part has vertices of different colours.
 bool has_plain_parts(const Mesh& mesh) {
     if (mesh.colours.empty()) {
         return true;

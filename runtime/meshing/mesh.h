@@ -86,10 +86,10 @@ enum class MeshMethod : std::uint8_t {
     Solid,     // one closed surface around the union of all parts, for printing
 };
 
-// Default of MeshOptions::subdivisions; with grooves, defaults of `sides` and `subdivisions`.
-inline constexpr std::uint32_t kSubdivisions = 2;
-inline constexpr std::uint32_t kGrooveSides = 32;
-inline constexpr std::uint32_t kGrooveSubdivisions = 3;
+// Defaults of MeshOptions::sides and MeshOptions::subdivisions.
+inline constexpr std::uint32_t kSubdivisions = 2;       // subdivisions without grooves
+inline constexpr std::uint32_t kGrooveSides = 32;       // sides with grooves
+inline constexpr std::uint32_t kGrooveSubdivisions = 3; // subdivisions with grooves
 // Largest values of MeshOptions::deviation and MeshOptions::min_width that users can ask for, in m.
 inline constexpr float kMaxDeviation = 1000.0F;
 inline constexpr float kMaxMinWidth = 1000.0F;

@@ -249,7 +249,8 @@ private:
 
     bool append_patch(const ControlPoints& points) {
         const std::uint64_t vertices = std::uint64_t{rows_ + 1} * (columns_ + 1);
-        used_ += vertices * (2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 64) + // 64: smooth_edges()
+        // 64: bytes per vertex in smooth_edges()
+        used_ += vertices * (2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 64) +
                  std::uint64_t{rows_} * columns_ * 6 * sizeof(std::uint32_t);
         if (2 * used_ > max_bytes_) {
             error_ = memory_error("its mesh", max_bytes_);
@@ -280,7 +281,7 @@ private:
         const glm::dvec3 normal = glm::cross(down, across);
         const double length = glm::length(normal);
         mesh_.positions.emplace_back(weighted(points, bernstein(s, false), bernstein(t, false)));
-        // Without a normal of its own a vertex gets that of the triangles in smooth_edges().
+        // smooth_edges() gives a vertex without a normal the mean normal of its triangles.
         mesh_.normals.emplace_back(length > 0.0 ? normal / length : glm::dvec3(0.0));
         mesh_.texture_coordinates.emplace_back(t, s);
     }

@@ -31,9 +31,9 @@ struct Texture {
 /// The normal map of the bark.
 [[nodiscard]] Texture bark_normals();
 
-/// Max texels of a picture file, in total and along a side.
-inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26;
-inline constexpr std::uint32_t kMaxTextureSide = 16384;
+/// Max texels of a picture file.
+inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26; // in total
+inline constexpr std::uint32_t kMaxTextureSide = 16384;             // along a side
 /// Reads a PNG, JPEG or SGI file whose texels take at most `max_bytes`. The error names any other known
 /// format.
 [[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);

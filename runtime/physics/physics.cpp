@@ -75,13 +75,13 @@ constexpr double kSettleStep = 1e6;      // s, step of settle(), so long that in
 // friction in these rounds. Each round multiplies the weight of older rounds by kRememberedShare.
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
-// Criterion of rest for a stage of settle() with many bodies, whose main branches already lie on
-// the ground: friction over the last three rounds, with a fifth of kFriction, in the last stage
-// with half of kFriction. A long curve falls into a heap that continues to roll and slide a little;
-// real friction would stop this motion.
+// In a stage after the first, with at least kManyBodies bodies, main branches already lie on the
+// ground. The plant is then at rest when friction with these coefficients would stop it, compared
+// over the last kStageRounds rounds. A long curve falls into a heap that continues to roll and
+// slide a little; real friction (kFriction) would stop this motion.
 constexpr std::size_t kManyBodies = 10'000;
-constexpr double kStageFriction = 0.1;
-constexpr double kLastStageFriction = 0.25;
+constexpr double kStageFriction = 0.1;      // in all stages but the last
+constexpr double kLastStageFriction = 0.25; // in the last stage
 constexpr std::size_t kStageRounds = 3;
 // A plant counts as falling, so that settling in stages is faster, if one of the first
 // kFallingRounds rounds turns a body by kFallingTurn, or if the plant is not at rest after these

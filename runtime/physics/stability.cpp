@@ -59,7 +59,7 @@ bool is_stable(const Bodies& plant, double gravity, bool own_load, std::vector<S
 
 /// Measures the trunk: the segments of bracket order 0 of the first plant.
 void measure_trunk(const Skeleton& rest, double gravity, Stability& out) {
-    double bending = 0.0; // integral of E I
+    double bending = 0.0; // integral of E I over the length
     double mass = 0.0;
     double widths = 0.0;
     std::vector<bool> is_trunk(rest.segments.size(), false);
@@ -106,7 +106,7 @@ Stability stability_of(const Skeleton& rest, const PhysicsOptions& options) {
         out.load_factor = std::numeric_limits<double>::infinity();
         return out;
     }
-    double low = 1e-12; // lower bound of the bisection, on a logarithmic scale
+    double low = 1e-12; // bounds of the factor, bisected on a logarithmic scale
     double high = kMaxFactor;
     if (!stands(low)) {
         return out;

@@ -47,7 +47,7 @@ struct MovingSegment {
 struct MovingObject {
     Motion motion;
     BeforeAndAfter<float> size{};
-    std::uint32_t old = kNone; // index in `before` of an organ with at most as many points
+    std::uint32_t old = kNone; // its old organ, with no more points: index in before.objects
 };
 
 struct MovingPolygon {

@@ -51,8 +51,8 @@ struct StemMaterial {
                                              std::uint64_t max_bytes,
                                              Skeleton& skeleton);
 
-/// Pixels on the longest side of the picture by which widths in pixels become metres, and the width
-/// of the thinnest branch: 0.4 % of the plant's extent, so that it is seen at every size.
+/// Pixels along the longest side of a plant, and the min width of a branch in pixels: 2 / 500 or
+/// 0.4 % of this side, so that the branch is seen at every size.
 inline constexpr double kPicturePixels = 500.0;
 inline constexpr double kMinPixels = 2.0;
 /// Converts the widths of all segments from pixels to metres: a pixel is the longest side of

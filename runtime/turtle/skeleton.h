@@ -84,8 +84,8 @@ struct OrganPoint {
     glm::vec3 position{}; // m
     glm::quat frame{1.0F, 0.0F, 0.0F, 0.0F};
     float width = 0.0F;          // m, by which the contour is scaled
-    float tangent_before = 1.0F; // length of the tangent before the point, relative to the
-    float tangent_after = 1.0F;  // chord; and after it
+    float tangent_before = 1.0F; // length of the tangent before the point / length of the chord
+    float tangent_after = 1.0F;  // length of the tangent after the point / length of the chord
     RadiusTangents radii;
     std::uint32_t contour = kNoContour; // index in Skeleton::contours; kNoContour: a circle
     ItemColour colour = 0;

@@ -76,7 +76,7 @@ struct TurtlePlace {
     std::uint32_t texture = 0;          // number of the texture
     std::uint32_t order = 0;            // open brackets
     std::uint32_t contour = kNoContour; // index in Bytecode::contours; kNoContour: a circle
-    float tangent_before = 1.0F;        // tangents of the axes of organs, relative to the chord
+    float tangent_before = 1.0F;        // tangent length of organ axes / chord length
     float tangent_after = 1.0F;
     RadiusTangents radii; // of organs
 };

@@ -46,7 +46,7 @@ ActiveBits mask_block(const ActiveMask::Tables& tables,
 #if defined(__x86_64__)
 #define LSYS_MASK_AVX2 1
 
-/// Looks up 32 codes in a table of `banks` times 16 bytes.
+/// Looks up 32 codes in a table of `banks` banks, each of 16 bytes.
 [[gnu::target("avx2"), gnu::always_inline]] inline __m256i
 look_up(const std::uint8_t* table, std::size_t banks, __m256i codes) {
     const auto bank = [table](std::size_t i) __attribute__((target("avx2"), always_inline)) {
@@ -56,7 +56,7 @@ look_up(const std::uint8_t* table, std::size_t banks, __m256i codes) {
     if (banks == 1) {
         return _mm256_shuffle_epi8(bank(0), codes);
     }
-    // A code of another bank gets its high bit set, for which the shuffle yields 0.
+    // Sets the high bit of codes of other banks, for which the shuffle then yields 0.
     const __m256i spread = _mm256_set1_epi8(0x70);
     __m256i found = _mm256_setzero_si256();
     for (std::size_t i = 0; i < banks; ++i) {
@@ -148,7 +148,7 @@ void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
         }
         return static_cast<std::uint8_t>(kAnyNeighbours << 1 << (at - groups.begin()));
     };
-    std::uint32_t same = 0; // parameters of each module that stores some; kNone: counts differ
+    std::uint32_t same = 0; // parameters of a module that stores any; kNone: modules differ
     for (Code code = 0; code < codes; ++code) {
         const Row& row = plan.row(code);
         if (row.stored != 0) {

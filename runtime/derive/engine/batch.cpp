@@ -40,7 +40,7 @@ struct BatchRun {
     const BatchInputs& inputs;
     const BatchProgram& program;
     const BatchModules& modules;
-    Lanes* rows = nullptr; // the rows of formals are filled in
+    Lanes* rows = nullptr; // the rows of formals already have their values
 };
 
 /// Calls visit(i) for every lane. For loops that have no vector form, in steps of eight, so that
@@ -241,7 +241,7 @@ private:
         for (std::size_t i = 0; i < kLanes; ++i) {
             const float low = x.values[i];
             const float high = y.values[i];
-            const float width = high - low; // not finite if an end is not
+            const float width = high - low; // not finite if `low` or `high` is not
             const float value = low + width * u.values[i];
             faults_[i] |= mask_[i] & ~(mask_of(width >= 0.0F) & mask_of(width < HUGE_VALF));
             at_end |= mask_of(value >= high);

@@ -17,8 +17,8 @@ namespace lsys {
 struct PassKeys {
     std::uint64_t seed = 0;
     std::uint32_t generation = 0;
-    /// Number of the first draw of each module: 0, or 4096 k for the pass of rule k of a sequential
-    /// generation; for later stages see stage_depth.h.
+    /// Number of the first draw of each module: 0, or in a sequential generation 4096 k for the
+    /// pass of rule k; for later stages see stage_depth.h.
     std::uint64_t first_draw = 0;
     bool keeps_age = false; // the written word has age `generation`, not `generation` + 1
 };

@@ -87,8 +87,8 @@ public:
     /// modules. Available if a right context has brackets and the word is not plain().
     [[nodiscard]] std::uint64_t jump_from(std::uint64_t index) const { return jump_.get(index); }
     static constexpr std::uint64_t kOffsetStride = 64;
-    /// The number of parameters stored before module m, which is `index` rounded down to a multiple
-    /// of kOffsetStride. Available if a formal of a context is used.
+    /// The number of parameters stored before module m, where m is `index` rounded down to a
+    /// multiple of kOffsetStride. Available if a formal of a context is used.
     [[nodiscard]] std::uint64_t offset_before(std::uint64_t index) const {
         return offsets_.as<std::uint64_t>()[index / kOffsetStride];
     }
@@ -115,7 +115,7 @@ private:
     IndexTable left_;                // by module
     IndexTable next_;                // by gap
     IndexTable jump_;                // by module
-    Arena offsets_;                  // by kOffsetStride modules, see offset_before()
+    Arena offsets_;                  // one per kOffsetStride modules, see offset_before()
     std::uint64_t count_ = 0;        // modules of the word
     bool plain_ = true;
     bool has_structure_ = false; // Plan::has_structure(): the word may have brackets

@@ -18,8 +18,8 @@ public:
 
     /// Makes the draws of all rules in a generation.
     void prepare(std::uint32_t generation);
-    /// The draw as u in [0, 1): the middle of the interval of the alternative, if all weights are
-    /// equal. For a generation other than the last prepared one, all earlier draws are repeated.
+    /// The draw as u in [0, 1): the middle of interval rand() mod c of c equal intervals. Slow for
+    /// a generation other than the last prepared one: calls rand() again from its seed on.
     [[nodiscard]] float draw(std::uint32_t rule, std::uint32_t generation) const;
 
 private:

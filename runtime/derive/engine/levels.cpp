@@ -16,9 +16,9 @@ namespace lsys {
 
 namespace {
 
-/// Max and min room of a block in modules, unless templates need more.
-constexpr std::uint64_t kMaxBlock = 4096;
-constexpr std::uint64_t kMinBlock = 32;
+/// Room of a block, unless templates need more.
+constexpr std::uint64_t kMaxBlock = 4096; // max modules
+constexpr std::uint64_t kMinBlock = 32;   // min modules
 /// Bytes of the blocks of all levels together, unless templates need more.
 constexpr std::uint64_t kBlocksBytes = std::uint64_t{8} << 20;
 

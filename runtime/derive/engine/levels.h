@@ -122,7 +122,7 @@ private:
     void pass_down(Level& level, Level& below);
     /// Makes the cuts of a block before a generation rewrites it.
     void prune(std::uint64_t index);
-    /// Makes the block of a level the input of choosers.
+    /// Makes the block of a level the word that the choosers read.
     void set_view(const Level& level, const PassKeys& keys);
     /// Sets error_ and stop_; returns false.
     [[nodiscard]] bool fail(RuntimeError error);

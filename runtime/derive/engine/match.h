@@ -83,9 +83,9 @@ private:
     const Plan& plan_;
     const WordView<C>& word_;
     const ContextTables* contexts_;
-    std::vector<std::uint64_t> left_;        // module matched by each pattern item
-    std::vector<std::uint64_t> right_;       // as left_
-    std::vector<std::uint64_t> predecessor_; // as left_; modules of the predecessor
+    std::vector<std::uint64_t> left_;        // module matched by each item of the left context
+    std::vector<std::uint64_t> right_;       // module matched by each item of the right context
+    std::vector<std::uint64_t> predecessor_; // module matched by each item of the predecessor
     std::vector<std::uint64_t> branches_;    // gaps after the branches that the search has entered
     std::vector<float> formals_;             // result of formals(), if they are gathered
 };

@@ -19,28 +19,28 @@ namespace {
 
 /// Programs with more codes are counted module by module.
 constexpr Code kCensusCodes = 4096;
-/// If all rows are Fixed: modules of the shortest word that all threads count and write. For a
-/// shorter word it is faster to take the sizes from the census and to write in order on one thread.
-/// With random draws in batches a module costs more, so that kMinSharedWord applies instead.
+/// If all rows are Fixed: min modules of a word that all threads count and write. For a shorter
+/// word it is faster to take the sizes from the census and to write in order on one thread. With
+/// random draws in batches a module costs more, so that kMinSharedWord is the min instead.
 constexpr std::uint64_t kMinParallelCount = 1U << 22;
 /// Threads end at about the same time if each has several chunks, none of them too small.
 constexpr std::uint64_t kChunksPerThread = 6;
 constexpr std::uint64_t kMinChunk = 1U << 14;
-/// Modules of the shortest word that several threads share: one thread rewrites a shorter word in
-/// less time than two need to synchronize.
+/// Min modules of a word that several threads share: one thread rewrites a shorter word in less
+/// time than two threads need to synchronize.
 constexpr std::uint64_t kMinSharedWord = 1U << 17;
-/// Modules of the word at which threads are started, a few generations before they are needed:
-/// starting them takes as long as rewriting such a word. A word that grows by less than
-/// 1 / kMinGrowth per generation may never need the threads.
+/// Threads are started a few generations before they are needed, because a start takes as long as
+/// rewriting a word of kMinWordForThreads modules: at the first word with that many modules and at
+/// least 1 / kMinGrowth more than the word before. A word that grows less may never need threads.
 constexpr std::uint64_t kMinWordForThreads = 1U << 13;
 constexpr std::uint64_t kMinGrowth = 8;
 /// Modules between two reports of progress.
 constexpr std::uint64_t kProgressStride = std::uint64_t{1} << 24;
 
-/// A mask is faster if at most one in this many modules is active. Fixed: all rows are Fixed.
-/// Dynamic: some rows are not, and their modules cost more.
-constexpr std::uint64_t kModulesPerActiveFixed = 8;
-constexpr std::uint64_t kModulesPerActiveDynamic = 2;
+/// A mask is faster if at most one in this many modules is active. Modules of rows that are not
+/// Fixed cost more.
+constexpr std::uint64_t kModulesPerActiveFixed = 8;   // if all rows are Fixed
+constexpr std::uint64_t kModulesPerActiveDynamic = 2; // if some row is not Fixed
 
 } // namespace
 

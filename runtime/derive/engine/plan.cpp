@@ -89,7 +89,7 @@ void Plan::make_codes() {
             codes_.wide_bytes = 32;
         }
     }
-    terms_.resize(max_stored); // identity terms, which all copies share
+    terms_.resize(max_stored); // identity terms, which all entries that copy a module share
     for (std::uint32_t i = 0; i < max_stored; ++i) {
         terms_[i].input = i;
     }

@@ -42,14 +42,14 @@ struct alignas(64) Entry {
     std::array<float, kEntryTerms> scale{};
     std::array<float, kEntryTerms> offset{};
     std::array<std::uint8_t, kEntryTerms> input{};
-    std::uint32_t first_code = 0; // index in the pool
+    std::uint32_t first_code = 0; // index in Plan::pool()
     std::uint32_t code_count = 0;
     std::uint32_t parameter_count = 0;
     /// If `general`: index in Plan::batch_programs(); kNone: evaluate() computes the parameters.
     /// Otherwise, with more than kEntryTerms parameters: index of the first one in Plan::terms().
     std::uint32_t terms_or_program = 0;
     std::uint32_t candidate = kNone; // kNone: a copy of the module
-    std::uint32_t first_place = 0;   // index of the successor in template_codes
+    std::uint32_t first_place = 0;   // of the successor: index in Bytecode::template_codes
     bool general = false;            // parameters need a batch or evaluate()
     bool reads_own = false;          // terms read parameters of the rewritten module
     bool special = false;            // needs more than one wide store of codes and one of terms
@@ -73,7 +73,7 @@ struct Row {
     std::uint32_t stored = 0;          // parameters of the module in the word
     std::uint32_t constants = kNone;   // folded module: index in Bytecode::constants
     std::uint32_t source = 0;          // index of a choice (Choice), test list (Tests) or family
-    std::uint32_t left_guard = kNone;  // General: index in guards() of the accepted neighbours
+    std::uint32_t left_guard = kNone;  // General: index in Plan::guards(); kNone: any neighbour
     std::uint32_t right_guard = kNone;
     RowKind kind = RowKind::Fixed;
     bool copies = true; // Fixed: writes the module itself
@@ -85,7 +85,7 @@ struct Row {
 struct Family {
     std::uint32_t first = 0; // index in candidates
     std::uint32_t count = 0;
-    std::uint32_t left_guard = kNone; // codes accepted to the left of a rewritten module
+    std::uint32_t left_guard = kNone; // index in Plan::guards(); kNone: any neighbour
     std::uint32_t right_guard = kNone;
     bool replaces_several = false; // a match of a candidate replaces several modules
     bool has_context = false;
@@ -105,7 +105,7 @@ struct Candidate {
     std::uint32_t first_comparison = 0; // index in Plan::comparisons_
     std::uint32_t comparison_count = 0;
     std::uint32_t comparison_room = 0;   // comparisons for which there is room from that index
-    std::uint32_t first_term = 0;        // index in terms, if more than kEntryTerms parameters
+    std::uint32_t first_term = 0;        // index in Plan::terms() if parameters > kEntryTerms
     std::uint32_t batch_program = kNone; // index in batch_programs(); set when first needed
     float weight = 0.0F;                 // unless computes_weight
     ConditionKind condition = ConditionKind::Always;
@@ -116,21 +116,21 @@ struct Candidate {
     bool reads_context = false; // some formals belong to contexts
 };
 
-/// The fixed set of a Choice row. The first record whose cumulative weight exceeds the draw is
-/// taken, or else the last record.
+/// The alternatives of a Choice row, records with thresholds. The first record whose threshold
+/// exceeds the draw is taken, or else the last record.
 struct Choice {
-    std::uint32_t first = 0; // index in thresholds and records
+    std::uint32_t first = 0; // index in ChoiceTables::thresholds and records
     std::uint32_t count = 0;
     std::uint32_t room = 0; // alternatives for which there is room from `first` on
 };
 
-/// One of the tests of a row, in file order. The first that holds decides.
+/// One of the tests of a Tests row. The first test in file order that holds decides.
 struct Test {
     Comparison comparison;
     std::uint32_t record = 0;
 };
 struct TestList {
-    std::uint32_t first = 0; // index in tests
+    std::uint32_t first = 0; // index in TestTables::list
     std::uint32_t count = 0;
     std::uint32_t room = 0; // tests for which there is room from `first` on
 };
@@ -339,7 +339,7 @@ private:
         std::optional<FoldedIndex> index; // none: nothing is folded
         std::vector<Code> codes;          // codes of folded templates, at the pool's end
         std::unordered_map<std::uint64_t, std::uint32_t> templates; // by code and candidate
-        std::vector<std::uint32_t> block_of_code;                   // first own entry; kNone: none
+        std::vector<std::uint32_t> block_of_code; // by code: first own entry, or kNone
         std::uint64_t budget = 0; // candidates that may still be tried for folded modules
     };
     /// Summary of the active rows.

@@ -11,7 +11,7 @@ namespace {
 
 /// Max codes of all folded templates together.
 constexpr std::size_t kMaxFoldedTemplateCodes = std::size_t{1} << 20;
-/// Max candidates of a family whose codes get entries of their own.
+/// A family with more candidates gives its codes no entries of their own.
 constexpr std::uint32_t kMaxCandidatesForOwnEntries = 256;
 
 } // namespace

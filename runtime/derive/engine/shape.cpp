@@ -62,7 +62,7 @@ public:
         }
         if (opcode == Opcode::Negate && x.kind == ShapeKind::Affine && !x.offset) {
             Term term =
-                x; // only without an offset: the negative of a sum +0 is -0, which no term yields
+                x; // only without an offset: if a sum x is +0, -x is -0, but a term gives +0
             term.affine.scale = -term.affine.scale;
             term.scaled = true;
             return term;

@@ -36,7 +36,7 @@ inline constexpr std::uint32_t kStepConstant = 0;
 inline constexpr std::uint32_t kStepsConstant = 1;
 inline constexpr std::uint32_t kFirstGlobal = 2;
 
-/// A node of the graph, by the order in which nodes are made.
+/// A node of the graph: its index in the order in which nodes are made.
 struct SweepNode {
     std::uint32_t id = 0;
 };
@@ -78,8 +78,8 @@ private:
     enum class Kind : std::uint8_t { Operand, Unary, Binary, Curve, Mix, Choice, Draw };
     struct Node {
         Kind kind = Kind::Operand;
-        Opcode opcode = Opcode::End; // of Unary, Binary and Draw
-        SweepOperand operand;        // of Operand; of Draw: the draw; of Curve: its index
+        Opcode opcode = Opcode::End; // Unary, Binary, Draw
+        SweepOperand operand;        // Operand: itself; Draw: the draw; Curve: index of the curve
         std::array<std::uint32_t, 3> inputs{};
         std::uint32_t input_count = 0;
         std::uint32_t depth = 0; // operations on the longest way to a stored value
@@ -124,7 +124,7 @@ private:
     std::vector<Node> nodes_;
     std::vector<SweepNode> taken_;
     std::vector<std::uint32_t> guards_; // guard_ before each choice that is being compiled
-    std::uint32_t guard_ = kNone;       // whether the current side of the choices is taken
+    std::uint32_t guard_ = kNone;       // node that is 0 if the current side is not taken, or kNone
     std::uint32_t slots_ = 0;           // slots used
     std::uint32_t written_ = 0;         // operations of the current code
     bool draws_ = false;

@@ -24,7 +24,7 @@ bool is_valid_draw(Opcode opcode, float x, float y) {
                                    : check_distribution(opcode, x, y) == DistributionFault::None;
 }
 
-/// `condition != 0 ? first : second` without a jump: both zeros are 0 without their sign bit.
+/// `condition != 0 ? first : second` without a jump. The bits of +0 and -0 are 0 but for the sign.
 float select(float condition, float first, float second) {
     const std::uint32_t is_second = std::bit_cast<std::uint32_t>(condition) << 1 == 0 ? 1 : 0;
     const std::uint32_t mask = is_second - 1; // all bits set for the first
@@ -40,7 +40,7 @@ float next(const Operation* at, float result, Bases bases, SweepMachine& machine
     return at[1].run(at + 1, result, bases, machine);
 }
 
-// Arithmetic with functions of its own; other opcodes use apply().
+// Opcodes with a sweep function of their own; others call arithmetic::apply().
 struct Add {
     static constexpr Opcode kOpcode = Opcode::Add;
     static float of(float x, float y) { return x + y; }

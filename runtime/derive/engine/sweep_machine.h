@@ -42,7 +42,7 @@ struct SweepOperation {
     SweepFunction run = nullptr;
     SweepOperand x;
     SweepOperand y;
-    Opcode opcode = Opcode::End; // of a function that serves several opcodes
+    Opcode opcode = Opcode::End; // the opcode, if `run` serves several opcodes
 };
 
 /// Functions of operations; r is the result so far.

@@ -17,7 +17,7 @@ void SweepNeighbours::drop_unreachable() {
     LSYS_CHECK(kept_.size() < kEnd / 2, kept_.size());
     count_ = static_cast<std::uint32_t>(kept_.size());
     std::swap(cells_, kept_);
-    // With room for as many cells again, the copies take constant time per module.
+    // As the room is twice the kept cells, copying takes constant time per module on average.
     cells_.resize(std::max<std::size_t>(2 * std::size_t{count_}, kept_.size()));
 }
 

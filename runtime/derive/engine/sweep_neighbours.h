@@ -29,7 +29,7 @@ public:
         SymbolId symbol = kNoSymbol;       // kNoSymbol: a branch
         std::uint32_t rest = kEnd;         // the list after the module or branch
         std::uint32_t inner = kEnd;        // the list in a branch
-        std::uint32_t module = kEnd;       // of a branch: the first module after it and its sisters
+        std::uint32_t module = kEnd;       // of a branch: the next module of its list
     };
 
     /// The next module, on the path that the sweep has come along: kNoSymbol if there is none.

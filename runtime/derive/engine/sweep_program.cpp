@@ -103,7 +103,7 @@ void SweepProgram::add_candidate(const Bytecode& bytecode,
     candidates_.push_back(candidate);
 }
 
-// As SweepVisitor::choose_among(): the order of the sums decides their rounding.
+// Adds in the order of SweepVisitor::choose_among(), because the order decides the rounding.
 void SweepProgram::add_outcomes(std::uint32_t first, std::uint32_t end) {
     if (!candidates_[first].is_stochastic) {
         return;

@@ -25,7 +25,7 @@ inline constexpr std::uint64_t kFirstUpDraw = kFirstDownDraw + (std::uint64_t{1}
 struct SweepItem {
     PatternKind kind = PatternKind::Module;
     SymbolId symbol = kNoSymbol;
-    std::uint32_t base = 0; // of the module's parameters, in SweepMachine
+    std::uint32_t base = 0; // SweepOperand::base of the module's parameters
 };
 
 /// Its size is that of a cache line.
@@ -49,7 +49,7 @@ struct alignas(64) SweepCandidate {
     TableRange outcomes;
 };
 
-/// A candidate of a random choice: chosen by draws below `threshold` that chose none before.
+/// A candidate of a random choice. Thresholds ascend: a draw takes the first above it.
 struct SweepOutcome {
     std::uint32_t candidate = 0;
     float threshold = 0.0F;

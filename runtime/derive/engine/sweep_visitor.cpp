@@ -52,7 +52,7 @@ bool SweepVisitor::write_several(std::uint32_t count, float* own) const {
     return is_finite;
 }
 
-// As Chooser::choose_among() chooses: the order of the sums decides their rounding.
+// Adds in the order of Chooser::choose_among(), because the order decides the rounding.
 bool SweepVisitor::choose_among(const SweepCandidate*& chosen, const SweepCandidate* end) {
     matching_.clear();
     for (const SweepCandidate* each = chosen; each != end; ++each) {

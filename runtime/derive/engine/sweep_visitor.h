@@ -165,9 +165,9 @@ private:
     const SweepOperation* operations_;
     SweepMachine machine_;
     SweepNeighbours neighbours_;
-    std::vector<std::uint32_t> lists_; // used by matches_items(): after the branches entered
+    std::vector<std::uint32_t> lists_; // matches_items(): the list after each branch entered
     std::vector<float> units_;         // draws of the next modules, see SweepCode::draw_blocks
-    std::size_t lane_ = 0;             // of the next module that draws
+    std::size_t lane_ = 0;             // in units_, of the next module that draws
     std::vector<Matching> matching_;   // used by choose_among()
 };
 

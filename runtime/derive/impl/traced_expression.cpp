@@ -81,7 +81,7 @@ struct PrintedValue {
     float number = 0.0F;
     std::string text;
     Binding binding = Binding::Leaf;
-    bool is_new_slot = true; // in a slot: set by the last instruction, not named yet
+    bool is_new_slot = true; // of a value in a slot: set since the last enter()
     bool is_truth = false;   // a comparison or a logical operation
 };
 
@@ -188,7 +188,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
             const char* const sign = opcode == Opcode::Not ? "!" : "-";
             PrintedValue result{number, sign + operand(x, Binding::Unary), Binding::Unary};
             if (opcode == Opcode::Negate && x.binding == Binding::Leaf) {
-                return result; // the sign of a leaf is not a part of its own
+                return result; // `-x` of a leaf x gets no TracedPart
             }
             return add(std::move(result),
                        sign + (opcode == Opcode::Not ? truth_text(x) : number_text(x.number)),
@@ -203,7 +203,7 @@ struct PrintedNumbers : UnknownDomain<PrintedValue> {
             return call(info(opcode).mnemonic, {&x, &y}, number);
         }
         const bool chains =
-            infix.binding != Binding::Equal && infix.binding != Binding::Less; // `a - b - c`
+            infix.binding != Binding::Equal && infix.binding != Binding::Less; // not `a < b < c`
         const bool to_right = infix.binding == Binding::Power;
         const Binding next = tighter(infix.binding);
         const std::string sign = " " + std::string(infix.sign) + " ";

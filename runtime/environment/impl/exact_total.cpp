@@ -48,7 +48,7 @@ TotalRange::TotalRange(std::span<const SensePlace> places) {
     }
     if (lowest <= highest) {
         lowest_ = lowest;
-        const auto bits = static_cast<std::size_t>(highest - lowest) + 34; // terms and sign
+        const auto bits = static_cast<std::size_t>(highest - lowest) + 34; // 33 of carry, 1 sign
         words_ = (bits + kWordBits - 1) / kWordBits;
     }
 }

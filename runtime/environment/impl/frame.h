@@ -39,7 +39,7 @@ public:
     /// has an extent, or `length` is not 0. Near the limits of binary64 the scale is 0; is_bounded
     /// is then false for all places.
     explicit Frame(const PointBox& box, double length = 0.0) {
-        double extent = length; // half of the longest edge of the box
+        double extent = length; // half of the longest edge of the box, if that is more
         for (std::size_t axis = 0; axis < 3; ++axis) {
             origin_[axis] = 0.5 * box.low[axis] + 0.5 * box.high[axis];
             extent = std::max(extent, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
@@ -58,7 +58,7 @@ public:
     /// which changes its length, adds 12 u s. Together a distance is wrong by 46 u s at most; the
     /// margin is 64 u s.
     [[nodiscard]] FramedPlace framed_place(const Vector3& place) const {
-        constexpr double kLargest = 0x1p50; // the square is far from overflow
+        constexpr double kLargest = 0x1p50; // its square is far below the max of binary32
         const Vector3 at = framed(place);
         const double size = 1.0 + std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
         FramedPlace result;

@@ -158,7 +158,7 @@ private:
     [[nodiscard]] const Entry& find(const Key& key) const { return entries_[index_of(key)]; }
 
     CellIndex low_;
-    std::uint32_t levels_;    // count of the sizes of blocks; level 0: single cells
+    std::uint32_t levels_;    // number of levels: single cells, then each size of blocks
     std::uint32_t shift_ = 0; // a hash >> shift_ is an index in entries_
     std::vector<Entry> entries_;
 };

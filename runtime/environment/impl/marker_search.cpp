@@ -178,13 +178,13 @@ private:
     const MarkerSearch& search_;
     const Vector3& marker_;
     FramedPlace framed_;
-    std::array<Lanes, 3> at_;        // `framed_.at`
-    double nearest_;                 // squared, m^2
+    std::array<Lanes, 3> at_;        // framed_.at, each coordinate in all lanes
+    double nearest_;                 // m^2, squared distance of found_; at first radius^2
     std::uint32_t found_ = kNoPlace; // the nearest place so far that sees the marker
     float limit_;          // squared distance in the frame above which a place cannot be nearest
     float kill_limit_;     // squared distance in the frame above which a place cannot kill
     float cosine_ = -1.0F; // MarkerReach::cosine, if the angle is tested in binary32
-    // Negative: max error of that test. Minus infinity: the angle is not tested in binary32.
+    // -1 times the max error of that test; minus infinity: the angle is not tested in binary32.
     float angle_margin_ = -std::numeric_limits<float>::infinity();
 };
 

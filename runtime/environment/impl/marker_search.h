@@ -65,7 +65,7 @@ private:
     std::span<const SensePlace> places_;
     MarkerReach reach_;
     double radius_ = 0.0; // m, square root of reach_.radius_squared
-    double kill_ = 0.0;   // m, likewise
+    double kill_ = 0.0;   // m, square root of reach_.kill_squared
     Frame frame_;
     bool compares_headings_ = false; // whether the angle is tested in binary32
     LargeVector<Node> nodes_;        // the root first

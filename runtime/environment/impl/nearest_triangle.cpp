@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-/// Triangles of the largest mesh whose corners are copied: 150 MB of copies.
+/// Max triangles of a mesh whose corners are copied: at most 150 MB of copies.
 constexpr std::size_t kMaxCopied = 1U << 21;
 
 } // namespace

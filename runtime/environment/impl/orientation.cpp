@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    // The determinant of three dimensions has 6 * 8 products of 4 numbers each.
+    // The determinant of three dimensions is a sum of 6 * 8 products, each a sum of 4 numbers.
     std::array<double, 192> parts_{};
     std::size_t count_ = 0;
 };
@@ -138,7 +138,7 @@ int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vect
     const Vector3 w{c[0] - p[0], c[1] - p[1], c[2] - p[2]};
     double determinant = 0.0;
     double magnitude = 0.0;
-    for (std::size_t row = 0; row < 3; ++row) { // by the last column
+    for (std::size_t row = 0; row < 3; ++row) { // expands by the last column
         const Vector3& first = row == 0 ? v : row == 1 ? w : u;
         const Vector3& second = row == 0 ? w : row == 1 ? u : v;
         const double last = row == 0 ? u[2] : row == 1 ? v[2] : w[2];

@@ -23,7 +23,7 @@ struct PointTree {
         SplitNode items;
     };
     LargeVector<Node> nodes;              // nodes in preorder; none without places
-    LargeVector<Vector3> points;          // by leaves
+    LargeVector<Vector3> points;          // positions of the places, leaf by leaf
     LargeVector<std::uint32_t> positions; // by point: its index in the word
 };
 

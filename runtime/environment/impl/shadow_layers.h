@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    /// Counts whose quotients are kept: divisions took half of the time of an answer.
+    /// Quotients of counts up to this are stored: divisions took half of the time of an answer.
     static constexpr std::int64_t kFew = 64;
     using Quotients = std::array<double, 2 * kFew + 1>;
 
@@ -104,10 +104,10 @@ private:
     }
     /// The greater of two numbers; `a` if `b` is NaN.
     [[nodiscard]] static double greater(double a, double b) { return b > a ? b : a; }
-    /// 2^-e for a number of 2^e or more and below 2^(e + 1), with e moved into -1022 to 1022: squares
-    /// of products with it are in the range of binary64, unless the number is infinite.
+    /// 2^-e for a number in [2^e, 2^(e + 1)), with e clamped to -1022 ... 1022. Numbers up to this
+    /// one, times 2^-e, have squares in the range of binary64, unless this number is infinite.
     [[nodiscard]] static double inverse_power_of_two(double number) {
-        constexpr std::uint64_t kMaxField = 2045; // of the exponent, biased by 1023
+        constexpr std::uint64_t kMaxField = 2045; // the biased exponent of 2^1022
         const std::uint64_t field = std::bit_cast<std::uint64_t>(number) >> 52;
         return std::bit_cast<double>(
             (kMaxField + 1 - std::clamp<std::uint64_t>(field, 1, kMaxField)) << 52);

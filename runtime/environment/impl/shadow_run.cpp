@@ -11,12 +11,12 @@ namespace {
 constexpr std::int64_t kMaxTablePlaces = std::int64_t{1} << 29; // required by count_by_tables()
 constexpr std::int64_t kNoRow = std::numeric_limits<std::int64_t>::max();
 
-/// For the three voxels at -1, 0 and +1 along an axis: whether the square of one layer around each
-/// contains a place at `distance` voxels from the middle voxel, as combinations of 0 and 1.
+/// For the three voxels at -1, 0 and +1 along an axis: 1 if the square of one layer around the
+/// voxel contains a place at `distance` voxels from the middle voxel, else 0.
 struct Covered {
     std::int64_t middle = 0;
-    std::int64_t sides = 0;      // number of outer neighbours that contain the place, 0 to 2
-    std::int64_t difference = 0; // 1 or 0 for the neighbour at +1, minus 1 or 0 for that at -1
+    std::int64_t sides = 0;      // value at +1 plus value at -1
+    std::int64_t difference = 0; // value at +1 minus value at -1
 
     Covered(std::int64_t distance, std::int64_t layer) {
         const auto covers = [&](std::int64_t neighbour) -> std::int64_t {
@@ -155,7 +155,7 @@ void ShadowRun::read_sources() {
     sources_.clear();
     rows_.clear();
     place_count_ = 0;
-    const auto width = static_cast<std::uint32_t>(width_); // negative coordinates are beyond it
+    const auto width = static_cast<std::uint32_t>(width_); // negative x, as unsigned, is above it
     const auto depth = static_cast<std::uint32_t>(depth_);
     const std::int64_t high_y = targets_.back().y + reach_;
     for (;;) {

@@ -45,7 +45,7 @@ private:
         std::size_t next = 0;
         std::size_t end = 0;
         std::int64_t y = 0; // y of voxel `next`
-        std::int32_t x = 0; // offset to coordinates of the tables
+        std::int32_t x = 0; // x, z: of the tile's corner, from the corner of the tables
         std::int32_t z = 0;
     };
 

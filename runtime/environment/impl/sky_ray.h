@@ -154,7 +154,7 @@ private:
     /// Index along `axis` of the cell that the ray has reached at `distance`.
     [[nodiscard]] std::int64_t cell_at(std::size_t axis, double distance) const {
         const std::int64_t step = direction_[axis] > 0.0 ? 1 : -1;
-        // The plane through which the ray enters a cell.
+        // Number of the plane through which the ray enters a cell, minus the index of the cell.
         const std::int64_t entry = direction_[axis] > 0.0 ? 0 : 1;
         const double estimate = std::floor((place_[axis] + distance * direction_[axis]) / size_);
         const double limit = 4.0 * kMaxCellIndex;

@@ -28,7 +28,7 @@ struct NearestPoint {
     return cross(minus(triangle.b, triangle.a), minus(triangle.c, triangle.a));
 }
 
-/// Two vectors.
+/// Two vectors, one in each lane.
 using PairVector = std::array<Pair, 3>;
 
 [[nodiscard]] inline Pair dot(const PairVector& a, const PairVector& b) {

@@ -60,7 +60,7 @@ private:
     const EnvironmentMesh& mesh_;
     MeshClosure closure_;
     LargeVector<Node> nodes_;             // nodes in preorder
-    LargeVector<LeafTriangle> triangles_; // by leaves
+    LargeVector<LeafTriangle> triangles_; // leaf by leaf
     NearestTriangle nearest_triangle_;
 };
 

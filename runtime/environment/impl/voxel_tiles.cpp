@@ -64,7 +64,7 @@ VoxelTiles::build(std::size_t count, const std::function<Vector3(std::size_t)>& 
     return std::nullopt;
 }
 
-/// Writes the indexes of each place into its record, x to `high`, y to `low`, z to `item`.
+/// Writes the indexes of the voxel of each place to its record: x to `high`, y `low`, z `item`.
 std::optional<EnvironmentFailure>
 VoxelTiles::find_indexes(std::size_t count, const std::function<Vector3(std::size_t)>& index) {
     records_.resize(count);

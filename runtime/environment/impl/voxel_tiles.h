@@ -29,11 +29,11 @@ struct TileVoxel {
 
 class VoxelTiles {
 public:
-    /// Tiles of 2^edge_bits voxels.
+    /// Tiles are 2^edge_bits voxels wide along x and z.
     VoxelTiles(std::uint32_t edge_bits, Workers& workers, const std::atomic<bool>& cancelled)
         : edge_bits_(edge_bits), workers_(workers), cancelled_(cancelled) {}
 
-    /// Memory that build() allocates for so many places.
+    /// Bytes that build() allocates for this number of places.
     [[nodiscard]] static std::uint64_t bytes_for(std::uint64_t places);
     /// Groups `count` places, at least one. `index(i)` are the indexes of the voxel of place i, not
     /// rounded to integers. A failure has stop Diagnosed and the first place with an index beyond
@@ -85,7 +85,7 @@ private:
     SortRecords records_;        // sorted by tile, y, x, z
     SortRecords scratch_;        // memory for sort_records()
     VoxelIndex low_{};           // least index along each axis
-    VoxelIndex high_{};          // greatest
+    VoxelIndex high_{};          // greatest index along each axis
     std::uint64_t key_step_ = 0; // see key()
     /// By voxel: its first record; last: the number of records.
     LargeVector<std::size_t> first_record_;

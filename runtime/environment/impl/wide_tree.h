@@ -83,7 +83,7 @@ push_children(OpenNodes& open, std::size_t count, const WideNode& node, Lanes le
     end[1] = OpenNode(second_greatest[0]);
     end[2] = OpenNode(second_smallest[0]);
     end[3] = OpenNode(smallest[1]);
-    constexpr std::uint64_t kBitCounts = 0x4332'3221'3221'2110; // four bits for each number
+    constexpr std::uint64_t kBitCounts = 0x4332'3221'3221'2110; // of 0 to 15, four bits each
     return count + (kBitCounts >> 4 * lane_bits(mask) & 7);
 }
 

@@ -11,10 +11,9 @@ namespace lsys {
 
 namespace {
 
-// Max number of joints that one edge may replace: with a tolerance in radii, and with an error in
-// metres. These limits keep the search linear.
-constexpr std::size_t kMaxLeftOut = 32;
-constexpr std::size_t kMaxLeftOutByError = 256;
+// Max number of joints that one edge may replace, so that the search stays linear:
+constexpr std::size_t kMaxLeftOut = 32;         // with a tolerance in radii
+constexpr std::size_t kMaxLeftOutByError = 256; // with an error in metres
 
 /// Whether the edge from joint `first` to joint `last` may replace the joints between.
 bool can_replace(const LargeVector<Joint>& joints,

@@ -18,7 +18,7 @@ namespace {
 
 // Min ratio of the smaller to the larger radius of a segment.
 constexpr float kMinTaper = 0.05F;
-// A single child continues its parent if it bends by less than 60 degrees.
+// A single child continues its parent if it bends by less than 60 degrees, which has this cosine.
 constexpr float kStraight = 0.5F;
 // A side whose normal has a smaller cosine with the heading of a child does not face the child.
 constexpr float kFacing = 0.35F;
@@ -27,28 +27,25 @@ constexpr float kOutside = 1.25F;
 // Min size of the opening of a child, relative to the cross-section of the child. A branch may be
 // narrower in its opening if the mesh is smoothed, which hides this; unsmoothed boxes must not be
 // narrower there.
-constexpr float kSmoothedOpening = 0.4F;
-constexpr float kExactOpening = 0.98F;
-// Rim of the flat ends of smoothed meshes: size of the inner square of the end face, and distance
-// of the last ring from the end face, both in half sides.
-constexpr float kRim = 0.72F;
-constexpr float kBevel = 0.28F;
+constexpr float kSmoothedOpening = 0.4F; // if the mesh is smoothed
+constexpr float kExactOpening = 0.98F;   // if it is not
+// Rim that keeps the flat ends of smoothed meshes flat, in half sides of the end:
+constexpr float kRim = 0.72F;   // half side of the inner square of the end face
+constexpr float kBevel = 0.28F; // distance of the last ring from the end face
 // Min half side of an end with a rim, relative to its distance from the origin.
 constexpr float kMinRim = 2e-4F;
-// Overlaps, in half sides, at a tip where branches have separate surfaces: of the parent beyond its
-// tip, and of the branches before this tip. The second overlap is smaller, so that no thick branch
-// shows on the far side of the parent.
-constexpr float kParentOverlap = 0.6F;
-constexpr float kBranchOverlap = 0.1F;
+// Overlaps, in half sides, at the tip of a parent whose branches have separate surfaces. That of
+// the branches is smaller, so that no thick branch shows on the far side of the parent.
+constexpr float kParentOverlap = 0.6F; // of the parent, beyond its tip
+constexpr float kBranchOverlap = 0.1F; // of the branches, before this tip
 // Min relative difference of widths at which an unsmoothed box has a step.
 constexpr float kStep = 0.01F;
 // Min step that floats can represent, relative to the distance from the origin.
 constexpr float kMinStep = 4e-6F;
-// Limits with which a child continues its parent from the top of a joint: min cosine of the bend,
-// and max relative difference of widths.
-constexpr float kContinues = 0.97F;
-constexpr float kSameWidth = 0.15F;
-constexpr std::size_t kSides = 5; // sides of a joint: four around it and the top
+// Limits within which a child at the top of a joint continues its parent:
+constexpr float kContinues = 0.97F; // min cosine of the bend
+constexpr float kSameWidth = 0.15F; // max relative difference of widths
+constexpr std::size_t kSides = 5;   // sides of a joint: four around it and the top
 constexpr std::size_t kTop = 4;
 
 /// Whether the segment is larger than the resolution of floats at its place.

@@ -12,7 +12,7 @@
 namespace lsys {
 
 struct BoxShape {
-    float width = 1.0F; // half side of the box of a segment whose radius is 1
+    float width = 1.0F; // half side of the box of a segment / radius of the segment
     /// Whether the mesh will be smoothed. Flat ends then get a rim that keeps them flat, and a
     /// branch may be narrower in its opening, the hole in the side of its parent's box. If false,
     /// each box has exactly the widths of its segment.

@@ -171,7 +171,7 @@ BoxOpening BoxWriter::add_opening(const glm::vec3& along, float half) {
     return opening;
 }
 
-/// Adds the faces between two rings, each of which is covered by a fan from its first corner.
+/// Adds the faces between two rings. A fan from its first corner covers each face.
 void BoxWriter::join(const BoxSocket& from, const BoxSocket& to) {
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t j = (i + 1) % 4;

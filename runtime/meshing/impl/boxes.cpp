@@ -23,8 +23,8 @@ namespace lsys {
 
 namespace {
 
-// Half side of a box for a radius of 1. A smoothed square tube has a radius of 0.65 of its half
-// diagonal; the cross-section of an unsmoothed box has the area of the circle.
+// Half side of a box / radius of its segment. A smoothed square tube has a radius of 0.65 of its
+// half diagonal; the cross-section of an unsmoothed box has the area of the circle.
 constexpr float kSmoothedWidth = 1.075F;
 constexpr float kBoxWidth = 0.886F;
 constexpr std::uint64_t kMaxCorners = std::uint64_t{1} << 31;

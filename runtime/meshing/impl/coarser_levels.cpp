@@ -13,7 +13,7 @@ constexpr double kSafeFactor = 1.04;       // margin within both bounds, where p
 constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
 constexpr int kMaxTries = 24;              // max steps of the search for a number of paths
 constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles that suffices
-// A mesh is thinned to the max triangles of the next level if it has at most this multiple of it.
+// A mesh of at most this multiple of the max triangles of the next level is thinned to that max.
 constexpr double kNearMax = 1.35;
 // Factors of the wanted number of triangles, tried one after the other.
 constexpr std::array<double, 6> kTriangleFactors{1.0, 0.9, 1.1, 0.82, 1.18, 0.72};

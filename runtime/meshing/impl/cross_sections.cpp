@@ -89,7 +89,7 @@ ContourLayout layout_of(std::span<const ContourPointer> contours, std::uint32_t 
         return std::ranges::any_of(contours,
                                    [&](ContourPointer each) { return is_corner(each, span); });
     };
-    std::uint32_t drawn = 0; // spans that are no corner of all contours
+    std::uint32_t drawn = 0; // spans that are no corner in at least one contour
     bool goes_on = false;    // whether the next span belongs to the last run
     for (std::uint32_t span = 0; span < spans; ++span) {
         const bool breaks = any_corner(span);

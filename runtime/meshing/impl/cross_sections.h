@@ -27,7 +27,7 @@ struct ContourRun {
     friend bool operator==(const ContourRun&, const ContourRun&) = default;
 };
 
-/// The columns of a ring: those of each run, so that corners and the seam have two columns.
+/// The columns of a ring. Each run has columns of its own, so corners and the seam have two.
 struct ContourLayout {
     std::vector<ContourRun> runs;
     bool closed = false;         // the last column of a ring is the first one again
@@ -41,8 +41,8 @@ struct ContourLayout {
 /// points, and both or none are closed.
 [[nodiscard]] bool can_blend(ContourPointer a, ContourPointer b);
 
-/// The layout for all of these contours, which can_blend(): corners of any of them are corners. It
-/// has `sides` sides, or one per run if there are more runs.
+/// The layout for all of these contours; a corner of any of them is a corner. It has `sides` sides,
+/// or one per run if there are more runs. Precondition: can_blend() for each pair.
 [[nodiscard]] ContourLayout layout_of(std::span<const ContourPointer> contours,
                                       std::uint32_t sides);
 

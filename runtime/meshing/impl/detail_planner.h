@@ -14,8 +14,8 @@
 
 namespace lsys {
 
-inline constexpr double kLowFactor = 2.0;
-inline constexpr double kMaxFactor = 3.0;
+inline constexpr double kLowFactor = 2.0; // min ratio of the triangles of a level to the next level
+inline constexpr double kMaxFactor = 3.0; // max ratio
 // Max ratio for boxes: a level with one step of subdivision less has a quarter of the triangles.
 inline constexpr double kMaxFactorOfBoxes = 4.5;
 

@@ -35,10 +35,10 @@ constexpr int kMaxRestoringTries = 14; // max tries of seek_joints()
 constexpr std::uint64_t kMaxAddedPaths = 8; // by restore_triangle_count()
 // Max triangles of levels to which restore_triangle_count() adds paths.
 constexpr double kMaxTrianglesForPaths = 4000.0;
-// kCloseCount of levels to which restore_triangle_count() has added paths.
+// As kCloseCount, for levels to which restore_triangle_count() has added paths.
 constexpr double kFairCount = 0.1;
 constexpr float kRestoringFactor = 1.3F; // factor of MeshOptions::axis_error per try
-constexpr double kMinMove = 1e-12; // min product of a step and its effect to update derivatives
+constexpr double kMinMove = 1e-12; // derivatives are not updated if step * effect is below this
 
 /// Whether a tint changes the colours of materials little.
 bool is_moderate(const glm::vec3& tint) {

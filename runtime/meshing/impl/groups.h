@@ -26,7 +26,7 @@ struct Groups {
 /// Sorts the items 0 ... count - 1 by key_of(item), which is called twice for each item.
 template <typename KeyOf>
 [[nodiscard]] Groups group_items(std::uint64_t count, const KeyOf& key_of) {
-    std::map<std::uint64_t, std::uint64_t> places; // by key: the count, later the next place
+    std::map<std::uint64_t, std::uint64_t> places; // by key: item count, later index of the next
     // Items of equal keys often follow each other, so the last lookup is cached.
     std::uint64_t last_key = kNoGroup;
     std::uint64_t* place = nullptr;

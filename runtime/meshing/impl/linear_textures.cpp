@@ -21,7 +21,7 @@ double linear_of(double value) {
     }
     const double base = (value + 0.055) / 1.055;
     const double square = base * base;
-    double root = 1.0; // fifth root of the square
+    double root = 1.0; // approaches the fifth root of `square`
     for (int i = 0; i < 60; ++i) {
         const double fourth = root * root * root * root;
         root -= (fourth * root - square) / (5.0 * fourth);

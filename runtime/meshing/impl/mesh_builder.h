@@ -133,8 +133,8 @@ private:
         std::vector<std::string> words = {}; // each once, in the order of drawing
     };
 
-    /// Adds `triangle_bytes` to the total. Sets stop_ and returns false if that, or so many more
-    /// vertices, would exceed a limit.
+    /// Adds `triangle_bytes` to the total. Sets stop_ and returns false if the new total, or
+    /// `vertices` more vertices, would exceed a limit.
     bool claim(std::uint64_t vertices, std::uint64_t triangle_bytes);
     void grow_vertices(MeshBlock& block, std::uint64_t count); // makes room for `count` more
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTurnPerStep = std::numbers::pi / 18.0; // 10 degrees
 constexpr std::uint32_t kMaxSteps = 24;
-constexpr std::uint32_t kRadiusSteps = 12; // at least, where the radius follows a curve
+constexpr std::uint32_t kRadiusSteps = 12; // min steps where the radius follows a curve
 
 /// Hermite curve from one point to the next.
 struct HermiteCurve {
@@ -64,7 +64,7 @@ AxisStation station_of(const OrganPoint& point, double part) {
     return station;
 }
 
-/// The part of the way and the radius along a stretch, a cubic Hermite curve as in cpfg.
+/// The radius between two points over the fraction of the way: a cubic Hermite curve as in cpfg.
 class RadiusCurve {
 public:
     RadiusCurve(const OrganPoint& a, const OrganPoint& b, double chord) {
@@ -75,7 +75,7 @@ public:
         is_even_ = !read(b.radii.part_before, b.radii.radius_before, scale, end_) && is_even_;
     }
     [[nodiscard]] bool is_even() const { return is_even_; }
-    /// The part of the way in x and the radius in y.
+    /// Fraction of the way in x, radius (m) in y.
     [[nodiscard]] glm::dvec2 at(double t) const {
         const glm::dvec2 whole(1.0, rise_);
         const glm::dvec2 square = 3.0 * whole - 2.0 * begin_ - end_;
@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    /// Returns false for a tangent of length 0, which is replaced by an even one.
+    /// Returns false for a tangent (0, 0); `tangent` is then that of a straight line.
     bool read(float part, float radius, double scale, glm::dvec2& tangent) const {
         const bool is_given = part != 0.0F || radius != 0.0F;
         tangent = is_given ? glm::dvec2(part, static_cast<double>(radius) * scale)
@@ -92,7 +92,7 @@ private:
         return is_given;
     }
 
-    double from_ = 0.0; // m
+    double from_ = 0.0; // radius at the first point, m
     double rise_ = 0.0;
     glm::dvec2 begin_{};
     glm::dvec2 end_{};

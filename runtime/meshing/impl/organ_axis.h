@@ -20,7 +20,7 @@ struct AxisStation {
     glm::dvec3 right{};
     glm::dvec3 up{};
     double width = 0.0; // m, interpolated from OrganPoint::width
-    double part = 0.0;  // of the way from point a to point b
+    double part = 0.0;  // fraction of the way from point a to point b
 };
 
 /// The stations from a to b, both included. `level` halves the number of steps between them;

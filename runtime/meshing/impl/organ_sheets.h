@@ -21,7 +21,7 @@ struct OrganRing {
     std::vector<double> around;             // texture coordinate u, 0 to 1
     std::vector<glm::dvec2> contour_points; // m, scaled by the width; x: right, y: up
     glm::dvec3 heading{};                   // unit vector
-    double along = 0.0;                     // texture coordinate: length in circumferences
+    double along = 0.0;                     // texture coordinate: length / circumference
     double circumference = 0.0;             // m; of an open contour: its length
     ItemColour colour = 0;                  // of the strip that begins here
     [[nodiscard]] bool is_point() const { return circumference == 0.0; }
@@ -29,7 +29,7 @@ struct OrganRing {
 
 struct OrganSheet {
     ContourLayout layout;
-    bool turns_inwards = false; // the columns go around so that the triangles have to be turned
+    bool turns_inwards = false; // columns turn from right to up: triangles swap two corners
     std::vector<OrganRing> rings;
 };
 

@@ -8,7 +8,7 @@ namespace lsys {
 
 namespace {
 
-// Ratio of the triangles of a level to those of the next level: usual value, min and max.
+// Usual ratio of the triangles of a level to those of the next level.
 constexpr double kUsualFactor = 2.45;
 constexpr double kRootFactor = 1.5652;      // square root of kUsualFactor
 constexpr double kLastTriangles = 45.0;     // wanted triangles of the last level without impostors
@@ -125,7 +125,7 @@ double DetailPlanner::factor_from(double triangles) const {
     const double all = triangles / last_triangles_;
     int steps = 1;
     double max_ratio = kMaxFactor;             // max ratio that `steps` steps can reach
-    double usual = kUsualFactor * kRootFactor; // for more, a step more is nearer to kUsualFactor
+    double usual = kUsualFactor * kRootFactor; // above it, steps + 1 is nearer to kUsualFactor
     while (max_ratio < all || usual < all) {
         ++steps;
         max_ratio *= kMaxFactor;

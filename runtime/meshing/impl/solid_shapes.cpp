@@ -11,8 +11,8 @@ namespace lsys {
 
 namespace {
 
-/// Position along the axis of a cone of that ball which is nearest to a point; the point is at the
-/// distance `along` along the axis and `across` from the axis.
+/// The ball of a cone that is nearest to a point, by its position along the axis. The point is at
+/// the position `along` along the axis, at the distance `across` from it.
 double nearest_ball(const SolidShape& cone, double along, double across) {
     if (cone.length == 0.0) {
         return 0.0;

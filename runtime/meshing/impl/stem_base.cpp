@@ -14,11 +14,10 @@ namespace lsys {
 namespace {
 
 constexpr float kGroundTolerance = 1e-3F; // max abs(y) of a stem's base, per height of the flare
-// Depth of the ridges at the ground, in radii: its ratio to the growth of the radius by the flare,
-// and its max.
-constexpr float kRidgeDepthPerFlare = 0.75F;
-constexpr float kMaxRidgeDepth = 0.6F;
-constexpr float kMeanRidge = 13.0F / 35.0F; // mean of ridge()
+// Depth of the ridges at the ground, in radii:
+constexpr float kRidgeDepthPerFlare = 0.75F; // depth / growth of the radius by the flare
+constexpr float kMaxRidgeDepth = 0.6F;       // max depth
+constexpr float kMeanRidge = 13.0F / 35.0F;  // mean of ridge()
 // Factors of ridge() for the ridges of a flare, by number of the ridge.
 constexpr std::array<float, kMaxRoots> kHeights{1.0F,  0.8F, 1.15F, 0.9F, 1.2F,
                                                 0.75F, 1.1F, 0.85F, 1.05F};

@@ -19,10 +19,10 @@ namespace lsys {
 namespace {
 
 constexpr std::uint64_t kSeed = 0x7468696E; // fixed: the order depends on no seed of the user
-// Argument `block` of draw_block() for paths and for foliage.
-constexpr std::uint32_t kPathBlock = 0;
-constexpr std::uint32_t kFoliageBlock = 1;
-constexpr int kWideningSteps = 40; // halvings of the interval of the radius
+// Argument `block` of draw_block().
+constexpr std::uint32_t kPathBlock = 0;    // for paths
+constexpr std::uint32_t kFoliageBlock = 1; // for foliage
+constexpr int kWideningSteps = 40;         // halvings of the interval of the radius
 
 std::uint32_t random_word(std::uint64_t number, std::uint32_t block) {
     return draw_block(kSeed, kStartGeneration, number, block)[0];

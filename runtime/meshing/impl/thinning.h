@@ -48,7 +48,7 @@ struct ThinningOrder {
 /// Measures of the shape of a group.
 struct FoliageShape {
     std::uint64_t triangles = 0;
-    double area = 0.0;  // area of all triangles at size 1
+    double area = 0.0;  // m^2, area of all triangles at size 1
     glm::vec3 centre{}; // centroid of this area
 };
 /// Shapes of the groups at MeshOptions::level `level`; polygons have none.

@@ -39,7 +39,7 @@ private:
     [[nodiscard]] bool is_convex() const; // of the whole ring
     /// Twice the area of the triangle at a corner; > 0: convex.
     [[nodiscard]] double turn(std::uint32_t node) const;
-    /// Whether the corner `node` lies in the triangle of `ear`, so that this cannot be cut off.
+    /// Whether the corner `node` lies in the triangle of `ear`, so that the ear cannot be cut off.
     [[nodiscard]] bool is_blocked_by(std::uint32_t node, std::uint32_t ear) const;
     [[nodiscard]] bool is_ear(std::uint32_t node) const; // may be cut off
     /// Fills the ring with the corners, scaled to the unit square.

@@ -20,11 +20,10 @@ constexpr float kMaxSlope = 8.0F; // max result of slope_of()
 constexpr std::uint32_t kEdgesPerOrthogonalization =
     16;                               // edges after which the frame is made orthogonal again
 constexpr float kSpread = 0.2F;       // distance of the rings of a bend from its joint, in radii
-constexpr float kBluntHeight = 0.35F; // in radii
-// Radius of the ring between the end of a tube and the top of its half ball, and height of the
-// half ball, in radii of the tube.
-constexpr float kBallRing = 0.75F;
-constexpr float kBallHeight = 0.62F;
+constexpr float kBluntHeight = 0.35F; // height of the cone that closes a blunt end, in radii
+// Ring between the end of a tube and the top of its half ball, in radii of the tube:
+constexpr float kBallRing = 0.75F;   // radius of the ring
+constexpr float kBallHeight = 0.62F; // height of the ring above the end
 constexpr float kHalfRoot3 = 0.8660254F;
 // Min and max height of the corners of a break, in radii of the tube.
 constexpr float kMinSplinter = 0.15F;

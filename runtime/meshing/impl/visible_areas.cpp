@@ -18,8 +18,8 @@ namespace {
 
 /// Pixels per side of the trial views, from which the size of all other views is computed.
 constexpr int kTrialSize = 96;
-constexpr int kMinSize = 80; // min and max pixels per side of the other views
-constexpr int kMaxSize = 256;
+constexpr int kMinSize = 80;  // min pixels per side of the other views
+constexpr int kMaxSize = 256; // max pixels per side of the other views
 constexpr double kTargetPixels =
     2500.0; // wanted mean number of pixels that the plant covers per view
 constexpr std::size_t kTrialViews = 4;

@@ -25,8 +25,9 @@ namespace lsys {
 namespace {
 
 constexpr double kExposedShare = 0.5; // fraction of a sheet's area that faces the wind
-// m/s^2. Under its near load, which is defined below, a tip sinks by 9.81 / kGroundSpring = 0.005
-// of the height of the plant; pose() raises such tips out of the ground.
+// m/s^2: the spring of the ground under a tip is kGroundSpring * near load (defined below) / height
+// of the plant. Under this load a tip sinks by 9.81 / kGroundSpring = 0.005 of this height; pose()
+// raises such tips out of the ground.
 constexpr double kGroundSpring = 2e3;
 // The near load of a tip is kNearFactor times a sum over the masses of the descendants, in which
 // each further body along a branch counts less by the factor kNearShare; it is at most the whole
@@ -129,7 +130,7 @@ void add_segment(const Segment& segment, Body& body, BodySums& load) {
     body.heading = glm::vec3(axis);
     body.mass = magnitude(segment.mass);
     body.spring = magnitude(segment.spring);
-    // The inertia matrix is transverse (1 - a a^T) + axial a a^T.
+    // The inertia matrix is transverse (1 - a a^T) + axial a a^T, with the unit vector a = axis.
     body.inertia = point_inertia(body.mass * (cone.transverse - cone.axial), axis);
     body.inertia.add_diagonal(body.mass * cone.axial);
     load.first_moment = body.mass * cone.centre * axis;

@@ -30,8 +30,8 @@ struct Body {
     std::uint32_t parent = kNoSegment; // index of an earlier body
     std::uint32_t first_child = 0;     // index of a later body
     std::uint32_t child_count = 0;
-    glm::dvec3 offset{0.0}; // from the parent's base to the base
-    glm::dvec3 centre{0.0}; // centre of mass
+    glm::dvec3 offset{0.0}; // m, from the parent's base to the base of the body
+    glm::dvec3 centre{0.0}; // m, centre of mass
     Symmetric inertia;      // kg m^2, about the base
     double mass = 0.0;      // kg
     double spring = 0.0;    // N m/rad

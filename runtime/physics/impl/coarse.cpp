@@ -18,9 +18,9 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kCoarsestBodyCount = 500; // approximate bodies of the coarsest plant
-constexpr std::uint32_t kBodyRatio = 4;           // approximate ratio of bodies from plant to plant
-constexpr double kMinBodyRatio = 3.0;             // min ratio
+constexpr std::uint32_t kCoarsestBodyCount = 500; // bodies of the coarsest plant, approximately
+constexpr std::uint32_t kBodyRatio = 4;           // approximate ratio to the next coarser plant
+constexpr double kMinBodyRatio = 3.0;             // min of this ratio
 // Max of Coarsening::relative_twig_size(). A plant with larger twigs is nearly a chain: most of its
 // weight would be at the ends of the bodies that are kept. Such a plant is cut into runs instead.
 constexpr double kMaxRelativeTwig = 32.0;

@@ -159,7 +159,7 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
         if (table.draws_organs &&
             (action.quick == QuickAction::Forward || action.quick == QuickAction::Save ||
              action.quick == QuickAction::Restore)) {
-            action.quick = QuickAction::None; // they may add points to an organ, continue or end it
+            action.quick = QuickAction::None; // `F`, `[`, `]` may change the open organ
         }
         table.by_code.push_back(action);
     }

@@ -11,7 +11,7 @@
 
 namespace lsys {
 
-/// A piece of a segment of the earlier drawing, from `low` to `high` of its length.
+/// A piece of a segment of the earlier drawing; `low` and `high` are fractions of its length.
 struct SegmentPiece {
     std::uint32_t segment = kNoSegment;
     float low = 0.0F;

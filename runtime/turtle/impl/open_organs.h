@@ -21,7 +21,7 @@ struct OpenOrganPoint {
 struct OpenOrgan {
     std::size_t depth = 0;  // open brackets at its begin
     std::size_t first = 0;  // index of its first point in OpenOrgans::points
-    bool continues = false; // a `[` continues the organ of the branch around it
+    bool continues = false; // begun by a `[`: continues the organ of the outer branch
     PlacedObject object;
     Origin origin;              // of its SURFACE_BEGIN
     std::uint64_t position = 0; // of its SURFACE_BEGIN in the word

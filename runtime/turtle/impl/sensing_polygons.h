@@ -75,7 +75,7 @@ inline std::span<const SensingVector> SensingPolygons::corners() const {
     const auto distance = [](const SensingVector& a, const SensingVector& b) {
         return length_of({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
     };
-    constexpr double kClosed = 1e-5; // the last point equals the first up to rounding
+    constexpr double kClosed = 1e-5; // max distance of equal ends / length of first step
     if (path.size() > 2 &&
         distance(path.front(), path.back()) <= kClosed * distance(path[0], path[1])) {
         path = path.first(path.size() - 1);

@@ -22,7 +22,7 @@ namespace lsys {
 
 enum class SensingStep : std::uint8_t {
     NoEffect,
-    Yaw, // by a constant angle
+    Yaw, // Yaw, Pitch and Roll: by a constant angle
     Pitch,
     Roll,
     Forward, // a move without tropism
@@ -87,7 +87,7 @@ struct SensingTurtle::State {
     /// Reports the waiting sense modules up to index `index` of the piece.
     void report_up_to(std::uint64_t index);
     void forward(double length, bool adds_corners); // draws a segment, which first bends
-    void move(double length, bool adds_corners);    // without a segment
+    void move(double length, bool adds_corners);    // moves without drawing
     /// Moves along the second heading; the frame stays unchanged.
     void move_secondary(const Action& action, std::uint8_t argument_count, const float* arguments);
     void turn_by(std::uint8_t argument_count, const float* arguments); // pitches, rolls and yaws
@@ -110,7 +110,7 @@ struct SensingTurtle::State {
     SensingOptions options;
     ActionTable table;
     std::vector<SensingAction> actions; // by code
-    std::vector<double> areas;          // by code, of an object of size 1
+    std::vector<double> areas;          // by code: m^2, of an object of size 1
     SensingBrush now;                   // state at the module being executed
     std::vector<SensingBrush> stack;    // states saved by the open `[`, the innermost last
     SensingPolygons polygons;

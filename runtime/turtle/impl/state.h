@@ -55,12 +55,12 @@ struct Brush {
     float angle = 0.0F;                 // degrees
     HalfAngle turn;                     // half of `angle`
     double second_heading = 0.0;        // degrees from the first heading to the left
-    std::uint32_t segment = kNoSegment; // the last one drawn on the path
+    std::uint32_t segment = kNoSegment; // the last segment drawn on the path
     ItemColour colour = 0;
     std::uint16_t colour_index = 0;     // the last index that was set
     std::uint16_t texture = 0;          // number of the texture, 0: none
     std::uint32_t contour = kNoContour; // index in Bytecode::contours
-    float tangent_before = 1.0F;        // of the axes of organs, relative to the chord
+    float tangent_before = 1.0F;        // tangent length of organ axes / chord length
     float tangent_after = 1.0F;
     RadiusTangents radii; // of organs
     std::uint8_t sides = 0;
@@ -200,7 +200,7 @@ struct Turtle::State {
     void set_sides(float sides);
     [[nodiscard]] double colour_after(double count) const;
     void set_colour(double index);
-    void set_texture(double number); // without a material for it: none
+    void set_texture(double number); // sets 0 if no material has this number
     void set_rgb(const float* parts);
     void scale_angle(float factor);
     void turn_left(double degrees);
@@ -257,7 +257,7 @@ struct Turtle::State {
     OpenPolygons polygons{bytecode.settings.traits.corners_are_ends};
     OpenOrgans organs;
     Tropisms tropisms{bytecode.settings.tropisms};
-    std::bitset<kTextures> textures = textures_of(bytecode.materials); // the valid ones
+    std::bitset<kTextures> textures = textures_of(bytecode.materials); // valid numbers
     DrawingEnd end;
     std::uint64_t position = 0; // index of the current module
     Code code = 0;              // code of the current module
