@@ -58,10 +58,14 @@ Skeleton winding_stem() {
 
 } // namespace
 
-TEST_CASE("levels of a plant with polygons have a third to a half of the triangles before them",
+TEST_CASE("each level of a tree has a third to a half of the triangles of the one before",
           "[mesh]") {
-    Skeleton skeleton = test::random_tree(1, 1);
-    add_leaves(skeleton, 2000, 0.1F, 2.0F, 4.0F);
+    const bool has_leaves = GENERATE(true, false);
+    CAPTURE(has_leaves);
+    Skeleton skeleton = test::random_tree(1, has_leaves ? 1 : 3);
+    if (has_leaves) {
+        add_leaves(skeleton, 2000, 0.1F, 2.0F, 4.0F);
+    }
     const DetailLevels levels = planned(skeleton, {});
     REQUIRE(levels.levels.size() >= 5);
     for (std::size_t k = 0; k < levels.levels.size(); ++k) {

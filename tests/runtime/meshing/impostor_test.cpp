@@ -5,7 +5,7 @@
 #include "runtime/meshing/texture.h"
 
 #include <catch2/catch.hpp>
-#include <glm/common.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
