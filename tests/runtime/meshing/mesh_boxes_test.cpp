@@ -484,8 +484,9 @@ TEST_CASE("boxes of another scale are the boxes scaled") {
 }
 
 TEST_CASE("a branch whose opening lies beside its axis is centred from its first ring on") {
-    // The axis of the branch leaves the joint, a cube of half side 1, through an edge: at a height
-    // of 1 / tan(44 degrees).
+    // The joint is a cube of half side 1. The axis of the branch crosses the plane of the side from
+    // which the branch grows at 1 / tan(44 degrees) = 1.04 above the middle of the joint: just
+    // outside of the side.
     Plant plant;
     const glm::quat straight(1, 0, 0, 0);
     const std::uint32_t trunk = plant.grow(kNoSegment, straight, 8.0F, 1.0F, 1.0F);
