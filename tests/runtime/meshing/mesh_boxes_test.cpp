@@ -13,6 +13,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <set>
 #include <vector>
 
 using namespace lsys;
@@ -457,6 +458,59 @@ TEST_CASE("plants with the setting for boxes are drawn as boxes unless options o
     CHECK(vertices({.method = MeshMethod::Tubes}) == tube);
     CHECK(vertices({.subdivisions = 2}) > 24);
     CHECK(vertices({.grooves = 0.1F}) > vertices({.subdivisions = 2}));
+}
+
+TEST_CASE("boxes of another scale are the boxes scaled") {
+    for (const float scale : {1.0F / 1024.0F, 1024.0F}) {
+        for (std::uint32_t seed = 0; seed < 4; ++seed) {
+            Skeleton skeleton = random_plant(seed, 40, 50.0F).skeleton;
+            const PolygonMesh before = make_boxes(skeleton, {.smoothed = seed % 2 == 0});
+            for (Segment& segment : skeleton.segments) {
+                segment.base *= scale;
+                segment.length *= scale;
+                segment.base_radius *= scale;
+                segment.tip_radius *= scale;
+            }
+            const PolygonMesh after = make_boxes(skeleton, {.smoothed = seed % 2 == 0});
+            CAPTURE(scale, seed);
+            CHECK(after.corners == before.corners);
+            REQUIRE(after.positions.size() == before.positions.size());
+            for (std::size_t i = 0; i < after.positions.size(); ++i) {
+                CHECK(glm::distance(after.positions[i], scale * before.positions[i]) <
+                      1e-4F * scale);
+            }
+        }
+    }
+}
+
+TEST_CASE("a branch whose opening lies beside its axis is centred from its first ring on") {
+    // The joint is a cube of half side 1. The axis of the branch crosses the plane of the side from
+    // which the branch grows at 1 / tan(44 degrees) = 1.04 above the middle of the joint: just
+    // outside of the side.
+    Plant plant;
+    const glm::quat straight(1, 0, 0, 0);
+    const std::uint32_t trunk = plant.grow(kNoSegment, straight, 8.0F, 1.0F, 1.0F);
+    plant.grow(trunk, straight, 8.0F, 1.0F, 1.0F);
+    const std::uint32_t branch = plant.grow(trunk, turned(44, {1, 0, 0}), 8.0F, 0.1F, 0.1F);
+    const PolygonMesh mesh = make_boxes(plant.skeleton, {});
+    const Segment& own = plant.skeleton.segments[branch];
+    std::set<std::uint32_t> corners; // of the branch, and of the side from which it grows
+    std::uint32_t begin = 0;
+    for (std::size_t face = 0; face < mesh.face_ends.size(); ++face) {
+        if (mesh.segments[face] == branch) {
+            corners.insert(mesh.corners.begin() + begin,
+                           mesh.corners.begin() + mesh.face_ends[face]);
+        }
+        begin = mesh.face_ends[face];
+    }
+    std::size_t centred = 0; // corners of a square of half side 0.1 around the axis, near the joint
+    for (const std::uint32_t corner : corners) {
+        const glm::vec3 from = mesh.positions[corner] - own.base;
+        const float along = glm::dot(from, heading(own.frame));
+        const float away = glm::length(from - along * heading(own.frame));
+        centred += along < 2.0F && std::abs(away - 0.1F * std::sqrt(2.0F)) < 1e-4F ? 1U : 0U;
+    }
+    CHECK(centred == 4);
 }
 
 TEST_CASE("a branch is not wider where it leaves its parent") {

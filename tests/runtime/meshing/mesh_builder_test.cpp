@@ -60,7 +60,7 @@ TEST_CASE("parts made in place come first, the others by material", "[mesh]") {
     const MeshOptions options;
     MeshBuilder builder(options, mesh);
     const std::array<MeshBuilder::PartSize, 2> sizes{
-        {{wood_material(0), 3}, {wood_material(4), 6}}};
+        {{wood_material(0), 3, "wood"}, {wood_material(4), 6, "wood"}}};
     MeshBlock block;
     std::vector<std::span<std::uint32_t>> indices;
     REQUIRE(builder.reserve_parts(sizes, 3, block, indices));
@@ -78,7 +78,7 @@ TEST_CASE("parts made in place come first, the others by material", "[mesh]") {
 
     REQUIRE(mesh.parts.size() == 4);
     CHECK(mesh.materials[0].name == "bark");
-    CHECK(mesh.materials[1].name == "colour 4");
+    CHECK(mesh.materials[1].name == "wood 4");
     CHECK(mesh.materials[2].kind == MaterialKind::Leaf);
     CHECK(mesh.materials[3].kind == MaterialKind::Flower);
     const std::array<std::uint64_t, 4> counts{6, 6, 3, 3};

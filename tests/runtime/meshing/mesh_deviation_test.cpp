@@ -263,6 +263,25 @@ TEST_CASE("branches with few sides begin within parents with few sides", "[mesh]
     }
 }
 
+TEST_CASE("a branch without taper has equal rings after its collar", "[mesh][tubes]") {
+    constexpr float kDeviation = 0.003F;
+    constexpr float kRadius = 0.05F;
+    Plant plant;
+    const std::uint32_t trunk = plant.add(kNoSegment, {0, 1, 0}, 1.0F,
+                                          {.base_radius = 0.2F, .tip_radius = 0.2F, .sides = 32});
+    plant.add(trunk, {0, 1, 0}, 1.0F, {.base_radius = 0.2F, .tip_radius = 0.2F, .sides = 32});
+    const MeshOptions options{.deviation = kDeviation, .threads = 1};
+    const std::size_t own = rings_of(tubes(plant.skeleton(), options)).size();
+    plant.add(trunk, {1, 0, 0}, 2.0F,
+              {.base_radius = kRadius, .tip_radius = kRadius, .order = 1, .sides = 32});
+    const std::vector<Ring> rings = rings_of(tubes(plant.skeleton(), options));
+    REQUIRE(rings.size() == own + 3); // within the trunk, at the end of the collar, and the tip
+    const std::uint32_t sides = rings[own + 2].sides;
+    CHECK(sagitta(static_cast<double>(kRadius), sides - 2) > static_cast<double>(kDeviation));
+    CHECK(rings[own + 1].sides == sides);
+    CHECK(rings[own].sides >= sides);
+}
+
 TEST_CASE("a plant keeps its numbers of sides when it bends", "[mesh][tubes]") {
     const float deviation = GENERATE(0.0003F, 0.001F, 0.002F, 0.003F, 0.005F);
     CAPTURE(deviation);

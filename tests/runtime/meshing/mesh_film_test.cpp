@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "runtime/meshing/looks.h"
 #include "runtime/meshing/mesh_film.h"
 
 #include <catch2/catch.hpp>
+
+#include <memory>
+#include <utility>
 
 using namespace lsys;
 
@@ -83,6 +87,17 @@ TEST_CASE("the mesh of a film holds the last frame of each shape") {
     CHECK(film.shapes[1].first_part == 1);
     CHECK(film.shapes[2].first_vertex == 9);
     CHECK(film.shapes[2].first_part == 2);
+}
+
+TEST_CASE("the mesh of a film has the looks of its frames") {
+    const auto looks = std::make_shared<const Looks>();
+    MeshFilmBuilder builder(24.0F);
+    for (const std::uint32_t count : {1U, 2U}) {
+        Mesh frame = triangles(count, 0.0F, "bark");
+        frame.looks = looks;
+        builder.add(std::move(frame));
+    }
+    CHECK(builder.finish().mesh.looks == looks);
 }
 
 TEST_CASE("a film without frames is empty") {

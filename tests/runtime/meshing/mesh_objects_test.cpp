@@ -180,10 +180,24 @@ TEST_CASE("the skeleton sets the droop of leaves, unless the options override it
     skeleton.l3d_compatible_surface = true;
     Mesh of_program;
     REQUIRE(make_mesh(skeleton, {}, {.droop = 0.9F}, of_program) == std::nullopt);
+    test::check_mesh(of_program, {.droop = 0.9F});
     CHECK(test::bounds_of(of_program).high.y == Approx(0.75F).margin(1e-6));
     for (const TurtleProfile profile : enumerators_of<TurtleProfile>()) {
         CHECK((traits_of(profile).leaf_droop != 0.0F) == (profile == TurtleProfile::Lplus));
     }
+}
+
+TEST_CASE("surfaces of L3D change no objects other than leaves") {
+    Skeleton skeleton = random_objects(5, 7); // a flower and leaves
+    std::erase_if(skeleton.objects,
+                  [](const PlacedObject& object) { return object.kind == TurtleOperation::Leaf; });
+    REQUIRE(skeleton.objects.size() == 1);
+    const Mesh plain = meshed(skeleton);
+    skeleton.l3d_compatible_surface = true;
+    Mesh of_program;
+    REQUIRE(make_mesh(skeleton, {}, {}, of_program) == std::nullopt);
+    CHECK(of_program.positions == plain.positions);
+    CHECK(of_program.indices == plain.indices);
 }
 
 TEST_CASE("leaves of any direction droop to the ground and keep their length") {
@@ -246,9 +260,9 @@ TEST_CASE(
     "materials of mesh files have unique names of the file, different from those of the library",
     "[objects]") {
     CHECK(object_file_names({"leaves/maple.obj", "leaf.png", "old/Maple.png", "two words.obj",
-                             "a\nb.obj", ".png", "other\\leaf.png"}) ==
+                             "a\nb.obj", ".png", "other\\leaf.png", "AZ.obj", "az.obj"}) ==
           std::vector<std::string>{"maple", "leaf file", "Maple file", "two words", "a_b", "file",
-                                   "leaf file 2"});
+                                   "leaf file 2", "AZ", "az file"});
 }
 
 TEST_CASE("the name of a plain material lists the parts that use it", "[objects]") {

@@ -156,6 +156,24 @@ TEST_CASE("a smooth branch leaves along its parent and keeps its radius", "[mesh
     CHECK(test::triangles_turned_over(tubes(plant.skeleton(), kSmooth)) == 0);
 }
 
+TEST_CASE("a smooth branch that is too short for a collar keeps its radius", "[mesh][tubes]") {
+    Plant plant;
+    const std::uint32_t trunk =
+        plant.add(kNoSegment, {0, 1, 0}, 1.0F, {.base_radius = 0.05F, .tip_radius = 0.05F});
+    plant.add(trunk, {0, 1, 0}, 1.0F, {.base_radius = 0.05F, .tip_radius = 0.05F});
+    const auto base_radius = [&](float length) {
+        Plant branched = plant;
+        const std::uint32_t branch =
+            branched.add(trunk, {std::sin(45.0F * kDegree), std::cos(45.0F * kDegree), 0.0F},
+                         length, {.base_radius = 0.02F, .tip_radius = 0.02F, .order = 1});
+        return joints_of(branched.skeleton(), kSmooth, branch).front().radius;
+    };
+    // A collar is as long as the branch takes to leave the trunk, 0.05 m / sin(45 degrees), and one
+    // and a half radii.
+    CHECK(base_radius(0.09F) == 0.02F);
+    CHECK(base_radius(0.3F) > 0.021F);
+}
+
 TEST_CASE("a branch across or against its parent leaves as without smooth joints",
           "[mesh][tubes]") {
     const float degrees = GENERATE(91.0F, 150.0F, 180.0F);

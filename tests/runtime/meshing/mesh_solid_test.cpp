@@ -316,6 +316,27 @@ TEST_CASE("solids of triangles of any shape and size have the volume counted in 
     CHECK(test::volume_of(mesh) == Approx(volume).epsilon(0.02));
 }
 
+TEST_CASE("a solid of a plant three times as large is three times as large") {
+    Skeleton skeleton = branched();
+    MeshOptions options;
+    options.min_width = 0.0625F;
+    const Mesh before = meshed(skeleton, options);
+    constexpr float kScale = 3.0F; // not a power of two: grids are halved
+    for (Segment& segment : skeleton.segments) {
+        segment.base *= kScale;
+        segment.length *= kScale;
+        segment.base_radius *= kScale;
+        segment.tip_radius *= kScale;
+    }
+    options.min_width *= kScale;
+    const Mesh after = meshed(skeleton, options);
+    REQUIRE(after.positions.size() == before.positions.size());
+    CHECK(after.indices.size() == before.indices.size());
+    for (std::size_t i = 0; i < after.positions.size(); ++i) {
+        CHECK(glm::distance(after.positions[i], kScale * before.positions[i]) < 1e-4F);
+    }
+}
+
 TEST_CASE("parts of a solid that do not touch are separate shells") {
     Skeleton skeleton = branched();
     skeleton.segments.push_back(segment_to({3, 1, 0}, {4, 1.2F, 0}, 0.1F, 0.1F));

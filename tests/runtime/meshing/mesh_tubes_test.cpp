@@ -92,6 +92,25 @@ TEST_CASE("a tube keeps its radius on both sides of a bend", "[mesh][tubes]") {
     }
 }
 
+TEST_CASE("a tube of another scale is the tube scaled", "[mesh][tubes]") {
+    const float degrees = GENERATE(30.0F, 90.0F, 150.0F); // one, two and three rings at the bend
+    const float scale = GENERATE(1.0F / 64.0F, 64.0F);
+    CAPTURE(degrees, scale);
+    Skeleton skeleton = bent(degrees, 0.03F);
+    const Mesh before = tubes(skeleton, kBare);
+    for (Segment& segment : skeleton.segments) {
+        segment.base *= scale;
+        segment.length *= scale;
+        segment.base_radius *= scale;
+        segment.tip_radius *= scale;
+    }
+    const Mesh after = tubes(skeleton, kBare);
+    REQUIRE(after.positions.size() == before.positions.size());
+    for (std::size_t i = 0; i < after.positions.size(); ++i) {
+        CHECK(glm::distance(after.positions[i], scale * before.positions[i]) < 1e-5F * scale);
+    }
+}
+
 TEST_CASE("the radius at a joint is the base radius of the child", "[mesh][tubes]") {
     Plant plant;
     const std::uint32_t first =

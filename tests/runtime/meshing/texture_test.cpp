@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <png.h>
@@ -89,6 +91,35 @@ TEST_CASE("normals of the normal map of bark point outwards") {
     const Texture normals = bark_normals();
     for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
         REQUIRE(normals.texels[i + 2] > 128);
+    }
+}
+
+TEST_CASE("a picture of heights gives normals of its slopes") {
+    // White is 50 * 2 % of 4 texels = 4 texels higher than black. A column or row between black and
+    // white therefore rises by 2 texels per texel, and its normal is (-2, 0, 1) / sqrt(5).
+    constexpr float kBump = 50.0F;
+    constexpr std::uint32_t kSide = 4;
+    constexpr std::array<std::uint8_t, kSide> kBytes{0, 255, 255, 0};
+    const bool along_x = GENERATE(true, false);
+    Texture heights{kSide, kSide, {}};
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+        const std::uint8_t byte = kBytes[along_x ? i % kSide : i / kSide];
+        heights.texels.insert(heights.texels.end(), {byte, byte, byte, 255});
+    }
+    const Texture normals = normals_of(heights, kBump);
+    const auto byte_of = [](double part) { return std::lround(127.5 + 127.5 * part); };
+    const double part = 1.0 / std::sqrt(5.0);
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            CAPTURE(along_x, x, y);
+            // The picture repeats: it rises from texel 3 over 0 to 1, and falls from 1 over 2 to 3.
+            const double along = (along_x ? x : y) < 2 ? -2.0 * part : 2.0 * part;
+            // Normals point up for Y: against the order of the rows.
+            CHECK(channel(normals, x, y, 0) == byte_of(along_x ? along : 0.0));
+            CHECK(channel(normals, x, y, 1) == byte_of(along_x ? 0.0 : -along));
+            CHECK(channel(normals, x, y, 2) == byte_of(part));
+            CHECK(channel(normals, x, y, 3) == 255);
+        }
     }
 }
 

@@ -45,17 +45,30 @@ struct Senses final : SenseSink {
 };
 
 const std::vector<std::pair<std::string, TurtleOperation>> kOperations{
-    {"F", TurtleOperation::Forward},       {"f", TurtleOperation::Move},
-    {"h", TurtleOperation::HalfForward},   {"+", TurtleOperation::YawRight},
-    {"-", TurtleOperation::YawLeft},       {"&", TurtleOperation::PitchDown},
-    {"^", TurtleOperation::PitchUp},       {"\\", TurtleOperation::RollLeft},
-    {"/", TurtleOperation::RollRight},     {"|", TurtleOperation::TurnAround},
-    {"$", TurtleOperation::RollUpright},   {"s", TurtleOperation::ScaleStep},
-    {"a", TurtleOperation::ScaleAngle},    {"[", TurtleOperation::Save},
-    {"]", TurtleOperation::Restore},       {"{", TurtleOperation::PolygonBegin},
-    {".", TurtleOperation::PolygonVertex}, {"}", TurtleOperation::PolygonEnd},
-    {"S", TurtleOperation::Sphere},        {"C", TurtleOperation::Cone},
-    {"D", TurtleOperation::Disk},          {"%", TurtleOperation::Cut}};
+    {"F", TurtleOperation::Forward},
+    {"f", TurtleOperation::Move},
+    {"h", TurtleOperation::HalfForward},
+    {"+", TurtleOperation::YawRight},
+    {"-", TurtleOperation::YawLeft},
+    {"&", TurtleOperation::PitchDown},
+    {"^", TurtleOperation::PitchUp},
+    {"\\", TurtleOperation::RollLeft},
+    {"/", TurtleOperation::RollRight},
+    {"|", TurtleOperation::TurnAround},
+    {"$", TurtleOperation::RollUpright},
+    {"s", TurtleOperation::ScaleStep},
+    {"a", TurtleOperation::ScaleAngle},
+    {"[", TurtleOperation::Save},
+    {"]", TurtleOperation::Restore},
+    {"{", TurtleOperation::PolygonBegin},
+    {".", TurtleOperation::PolygonVertex},
+    {"}", TurtleOperation::PolygonEnd},
+    {"S", TurtleOperation::Sphere},
+    {"C", TurtleOperation::Cone},
+    {"D", TurtleOperation::Disk},
+    {"%", TurtleOperation::Cut},
+    {"H", TurtleOperation::SecondaryForward},
+    {"J", TurtleOperation::SecondaryMove}};
 
 Bytecode with_operations(Bytecode bytecode) {
     for (BytecodeSymbol& symbol : bytecode.symbols) {
@@ -260,6 +273,15 @@ TEST_CASE("turns by the angle of the settings are rounded correctly") {
     REQUIRE(senses.poses.size() == 1);
     CHECK(senses.poses[0].heading[0] == turn.cosine * turn.sine + turn.sine * turn.cosine);
     CHECK(senses.poses[0].heading[1] == turn.cosine * turn.cosine + turn.sine * -turn.sine);
+}
+
+TEST_CASE("the second heading of a sensing turtle keeps its direction in turns") {
+    for (const char* const axiom : {"+ H P", "- H P", "+ + + - J P"}) {
+        const Senses senses = walked(axiom);
+        REQUIRE(senses.poses.size() == 1);
+        CHECK(senses.poses[0].position[0] == Approx(0.0).margin(1e-12));
+        CHECK(senses.poses[0].position[1] == Approx(1.0));
+    }
 }
 
 TEST_CASE("what a cut will cut off is walked") {

@@ -311,6 +311,18 @@ TEST_CASE("too little memory for a plant is an outcome") {
     CHECK(draw(bytecode, 14, options).status == Stop::Limit);
 }
 
+TEST_CASE("nothing is read after the limit of memory") {
+    Bytecode bytecode = BytecodeBuilder().axiom("F]").build();
+    give_operations(bytecode);
+    TurtleOptions options;
+    options.max_bytes = 100'000;
+    Turtle turtle(bytecode, options);
+    std::vector<Code> codes(10'000, 0); // segments, then a `]` without its `[`
+    codes.push_back(1);
+    CHECK(turtle.feed(codes, {}) == Stop::Limit);
+    CHECK(turtle.end().faults[static_cast<std::size_t>(TurtleFaultKind::Unbalanced)].count == 0);
+}
+
 TEST_CASE("open branches count as memory of a plant") {
     TurtleOptions options;
     options.max_bytes = 100'000;
