@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,20 @@ TEST_CASE("conditions and arguments of every form") {
         builder.production("s : A(x) : x != 0 : three(x)");
         CHECK(derived_every_way(builder.build(), 1, 0) == "end(1)two(2)three(3)four(4)end(5)");
     }
+    SECTION("several factors and summands apply one after the other") {
+        builder.axiom("A(1)A(-2)");
+        const auto [value, expected] =
+            GENERATE(table<std::string, std::string>({{"x*2*3", "B(6)B(-12)"},
+                                                      {"x/2*5", "B(2.5)B(-5)"},
+                                                      {"2*(3*x)", "B(6)B(-12)"},
+                                                      {"x*3/2", "B(1.5)B(-3)"},
+                                                      {"(x+1)*2", "B(4)B(-2)"},
+                                                      {"x*2+1-4", "B(-1)B(-7)"},
+                                                      {"-x*3", "B(-3)B(6)"},
+                                                      {"-(x*3)", "B(-3)B(6)"}}));
+        builder.production("p : A(x) : * : B(" + value + ")");
+        CHECK(derived_every_way(builder.build(), 1, 0) == expected);
+    }
     SECTION("a bare value is a condition") {
         builder.axiom("A(0)A(2)");
         builder.production("p : A(x) : x : B");
@@ -167,6 +182,44 @@ TEST_CASE("successors longer than a wide store") {
     const std::string text = derived_every_way(builder.build(), 4, 0);
     CHECK(std::count(text.begin(), text.end(), 'd') == 4 * 70);
     CHECK(std::count(text.begin(), text.end(), 'b') == 4 * 70 + (3 + 2 + 1) + 4);
+}
+
+TEST_CASE("threads keep to their own chunks of a word") {
+    constexpr std::uint32_t kChunk = 64; // modules
+    std::string chunk;
+    for (std::uint32_t i = 0; i < kChunk; ++i) {
+        chunk += i % 32 == 0 ? "A(1) " : "F ";
+    }
+    std::string axiom;
+    for (int i = 0; i < 2000; ++i) {
+        axiom += chunk;
+    }
+    BytecodeBuilder builder;
+    builder.fold = false;
+    builder.axiom(axiom);
+    builder.production("q : F : * : G").production("r : G : * : F");
+    DeriveOptions options;
+    options.generations = 20;
+    options.threads = 2;
+    options.chunk_modules = kChunk;
+    SECTION("parameters") {
+        // Modules without parameters follow the last parameter of a chunk, so it is written when
+        // another thread has written the first parameter of the next chunk.
+        builder.production("p : A(x) : x > 0 : A(x+1)");
+        const Bytecode bytecode = builder.build();
+        Derivation derivation(bytecode, options);
+        REQUIRE(derivation.derive() == std::nullopt);
+        const std::span<const float> parameters = derivation.word().parameters();
+        REQUIRE(parameters.size() == 4000);
+        CHECK(std::count(parameters.begin(), parameters.end(), 21.0F) == 4000);
+    }
+    SECTION("codes of two bytes, of programs with too many codes to count") {
+        const Bytecode bytecode = builder.unused_symbols(5000).build();
+        Derivation derivation(bytecode, options);
+        REQUIRE(derivation.derive() == std::nullopt);
+        // After an even number of generations the word is the axiom.
+        CHECK(test::text_of(bytecode, derivation.word()) == test::derived(bytecode, 0, 0));
+    }
 }
 
 TEST_CASE("words of wider codes") {
