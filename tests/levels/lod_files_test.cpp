@@ -31,6 +31,13 @@ nlohmann::json document_of(const std::string& glb) {
     return nlohmann::json::parse(glb.substr(20, length));
 }
 
+/// The buffer of a GLB, which follows the document.
+std::string data_of(const std::string& glb) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, sizeof length);
+    return glb.substr(28 + std::size_t{length});
+}
+
 /// Triangles of a mesh of a document.
 std::uint64_t triangles_of(const nlohmann::json& document, std::size_t mesh) {
     std::uint64_t count = 0;
@@ -105,7 +112,8 @@ TEST_CASE("the last levels are impostors with colour, opacity and normals") {
             {"export", "-", "-o", folder / "a.glb", "--lods", "25", "--compress", compression},
             kTree);
         REQUIRE(run.status == 0);
-        const nlohmann::json document = document_of(read_text(folder / "a.glb"));
+        const std::string file = read_text(folder / "a.glb");
+        const nlohmann::json document = document_of(file);
         const std::size_t last = document["meshes"].size() - 1;
         REQUIRE(last >= 4);
         CHECK(triangles_of(document, last) <= 36);
@@ -130,6 +138,11 @@ TEST_CASE("the last levels are impostors with colour, opacity and normals") {
         // Pictures that levels share are stored once: bark, its normals, the leaf. An impostor has
         // its own picture and normals. Equal materials are stored once.
         CHECK(document["images"].size() == 3 + 2 * impostors);
+        const std::string data = data_of(file);
+        for (const auto& image : document["images"]) {
+            const auto& view = document["bufferViews"][image["bufferView"].get<std::size_t>()];
+            CHECK(data.substr(view["byteOffset"].get<std::size_t>() + 1, 3) == "PNG");
+        }
         const std::size_t materials = document["materials"].size();
         for (std::size_t i = 0; i < materials; ++i) {
             for (std::size_t k = 0; k < i; ++k) {

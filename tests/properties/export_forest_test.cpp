@@ -130,6 +130,9 @@ std::string view_of(const Exported& file, std::size_t number) {
         return std::string(file.buffer().substr(of.value("byteOffset", std::size_t{0}),
                                                 of["byteLength"].get<std::size_t>()));
     };
+    const json& decoded_in = file.document["buffers"][view["buffer"].get<std::size_t>()];
+    CHECK(view.value("byteOffset", std::uint64_t{0}) + view["byteLength"].get<std::uint64_t>() <=
+          decoded_in["byteLength"].get<std::uint64_t>());
     if (!view.contains("extensions")) {
         return slice(view);
     }
@@ -551,7 +554,49 @@ TEST_CASE("a ground without trees is a forest and is baked with its material") {
     CHECK(baked.tangents.empty()); // the ground has none, so the merged mesh has none
     CHECK(baked.materials.size() == wood.meshes[0][0].mesh.materials.size() + 1);
     CHECK(baked.materials.back().name == "ground");
-    CHECK(baked.parts.back().index_count == 3);
+    REQUIRE(baked.parts.back().index_count == 3);
+    for (std::uint32_t i = 0; i < 3; ++i) { // the ground has the first vertices
+        CHECK(baked.indices[baked.parts.back().first_index + i] == i);
+        CHECK(baked.positions[i] == ground.positions[i]);
+        CHECK(baked.normals[i] == ground.normals[i]);
+    }
+}
+
+TEST_CASE("an expanded forest has its pictures and its collision shapes") {
+    Wood wood;
+    wood.add_species(kLeafyBush, 4, 0.0F); // the instances are whole trees
+    wood.add_trees(9);
+    ForestExportInfo info;
+    info.collision = CollisionKind::Capsules;
+    const Exported file = exported(wood.scene(), ExportFormat::Glb, ForestForm::Expanded, info);
+    REQUIRE(!file.stop);
+    const json& nodes = file.document["nodes"];
+    std::size_t trees = 0;
+    std::size_t shapes = 0;
+    for (const json& node : nodes) {
+        if (!node.contains("scale")) {
+            continue;
+        }
+        ++trees;
+        for (const json& child : node.value("children", json::array())) {
+            REQUIRE(child.get<std::size_t>() < nodes.size());
+            CHECK(nodes[child.get<std::size_t>()]["name"].get<std::string>().starts_with("UCP_"));
+            ++shapes;
+        }
+    }
+    CHECK(trees == 9);
+    CHECK(shapes > 0);
+    CHECK(shapes == nodes.size() - 2 - trees); // beside the forest, its cell and the trees
+    const json& views = file.document["bufferViews"];
+    REQUIRE(file.document["images"].size() == 3); // bark, its normals, leaves
+    for (const json& image : file.document["images"]) {
+        CHECK(view_of(file, image["bufferView"].get<std::size_t>()).substr(1, 3) == "PNG");
+    }
+    for (std::size_t i = 1; i < views.size(); ++i) { // views have no gaps but padding
+        const std::uint64_t end = views[i - 1].value("byteOffset", std::uint64_t{0}) +
+                                  views[i - 1]["byteLength"].get<std::uint64_t>();
+        CHECK(views[i]["byteOffset"] == (end + 3) / 4 * 4);
+    }
 }
 
 TEST_CASE(
@@ -600,6 +645,11 @@ TEST_CASE("statistics of a forest add up") {
         CHECK(hits == stage["hits"]);
         CHECK(recorded == stage["instances"]);
         CHECK(stage["hit_rate"] > 0.5);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+        const InstanceCache& cache = wood.forest.species[i].stages[0].cache;
+        CHECK(stats["species"][i]["stages"][0]["cache_bytes"] ==
+              cache.byte_count() + cache.skeleton.byte_count());
     }
     CHECK_FALSE(json::parse(forest_stats_json(wood.scene(), {})).contains("different_trees"));
 }

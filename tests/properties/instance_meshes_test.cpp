@@ -355,7 +355,10 @@ TEST_CASE("surfaces of instances over the limit of memory are refused") {
     MeshOptions options;
     options.method = MeshMethod::Tubes;
     REQUIRE(make_instance_meshes(planted.cache, {}, options, meshes) == std::nullopt);
-    options.max_bytes = meshes.mesh.byte_count() - 1;
+    const std::uint64_t bytes = meshes.mesh.byte_count();
+    options.max_bytes = bytes;
+    CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == std::nullopt);
+    options.max_bytes = bytes - 1;
     CHECK(make_instance_meshes(planted.cache, {}, options, meshes) == Stop::Limit);
     CHECK(meshes.mesh.positions.empty());
     options.max_bytes = 100;

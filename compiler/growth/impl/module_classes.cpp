@@ -441,7 +441,6 @@ ClassExpansion ModuleClasses::expand_matches(const Matches& matches,
     ClassExpansion expansion;
     expansion.done = true;
     expansion.probabilities_known = matches.probabilities_known;
-    expansion.unchanged = matches.list.size() == 1 && matches.list.front().production == kNone;
     std::vector<ClassOutcome> outcomes;
     std::vector<KnownValue> formals;
     for (const Match& m : matches.list) {

@@ -64,12 +64,12 @@ void MaterialResolver::material(const MaterialNode& node, SourceSpan statement) 
     const SetValue first_value = resolution_.ast.set_values[node.values.first];
     const std::optional<std::uint32_t> index = read_index(first_value);
     ProgramMaterial material;
-    material.index = index.value_or(0);
     material.span = first_value.span;
     read_entries(node, material);
     if (!index) {
         return;
     }
+    material.index = *index;
     const auto [first, is_new] = first_.try_emplace(*index, first_value.span);
     if (!is_new) {
         report_duplicate(resolution_, first_value.span, first->second,

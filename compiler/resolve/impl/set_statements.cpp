@@ -301,7 +301,6 @@ void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressi
         settings.tropism[i] = number.value_or(0.0F);
         if (number && !std::isfinite(*number)) {
             report_bad_value(node, node.key_span, "takes finite numbers");
-            settings.tropism[i] = 0.0F;
         }
     }
     settings.has_tropism = true;

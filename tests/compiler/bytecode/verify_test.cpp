@@ -64,6 +64,18 @@ TEST_CASE("contours and the modules that set them are checked") {
           "a point of contour 0 is not finite");
 }
 
+TEST_CASE("curves are checked") {
+    const auto with = [](const std::vector<CurveKnot>& points) {
+        return verdict([&](Bytecode& b) { b.curves = {{"bend", points}}; });
+    };
+    CHECK(with({{0.0F, 1.0F}, {1.0F, 0.5F}}).empty());
+    CHECK(with({{0.0F, 1.0F}}) == "curve 0 has 1 points");
+    CHECK(with({{0.0F, 1.0F}, {HUGE_VALF, 0.5F}}) == "point 1 of curve 0 is out of place");
+    CHECK(with({{0.0F, 1.0F}, {1.0F, HUGE_VALF}}) == "point 1 of curve 0 is out of place");
+    CHECK(with({{0.0F, NAN}, {1.0F, 0.5F}}) == "point 0 of curve 0 is out of place");
+    CHECK(with({{0.0F, 1.0F}, {0.0F, 0.5F}}) == "point 1 of curve 0 is out of place");
+}
+
 TEST_CASE("heads are checked") {
     CHECK(verdict([](Bytecode& b) { b.patterns[1].first_formal = 0; }) ==
           "pattern item 1 is malformed");

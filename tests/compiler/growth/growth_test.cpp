@@ -182,6 +182,10 @@ TEST_CASE("contexts may match or not") {
     CHECK(prediction.exact); // `a` stays or becomes `b`: one module in both cases
 }
 
+TEST_CASE("conditions over known parameters are decided beside formals of contexts") {
+    check_counts(system("A(1)B(1)", {"A(x) < B(y) : y > 2 : B(y)B(y)"}), {2, 2, 2});
+}
+
 TEST_CASE("sequential rewriting makes one pass for each rule in order") {
     // The pass of B reads the word that the pass of A wrote.
     check_counts(system("A", {"A : * : B B", "B : * : A C A"}, RewritingMode::Sequential),

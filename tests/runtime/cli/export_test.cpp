@@ -279,6 +279,17 @@ TEST_CASE("one glb or gltf holds all frames, also on standard output") {
             CHECK(file.find(part) != std::string::npos);
         }
     }
+    // Each channel turns a joint of the skin.
+    const nlohmann::json document = nlohmann::json::parse(read_text(folder / "plant.gltf"));
+    const nlohmann::json& joints = document["skins"][0]["joints"];
+    const nlohmann::json& channels = document["animations"][0]["channels"];
+    REQUIRE_FALSE(channels.empty());
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        CHECK(channels[i]["sampler"] == i);
+        CHECK(channels[i]["target"]["path"] == "rotation");
+        CHECK(std::find(joints.begin(), joints.end(), channels[i]["target"]["node"]) !=
+              joints.end());
+    }
     for (const char* threads : {"1", "3"}) {
         const LscRun run =
             with({"export", "-", "-o", "-", "--format", "glb", "--threads", threads});

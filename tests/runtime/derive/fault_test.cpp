@@ -258,3 +258,43 @@ TEST_CASE("messages name production, module, position and generation") {
     CHECK(blind.notes.back() ==
           "at test.lsys:" + std::to_string(bytecode.sites[error.site].line) + ":1");
 }
+
+TEST_CASE("the message about a value that overflows advises to bound it") {
+    BytecodeBuilder builder;
+    builder.fold = false;
+    builder.axiom("A(10)").production("square : A(x) : * : A(x*x)");
+    const Bytecode bytecode = builder.build();
+    const RuntimeError error = error_every_way(bytecode, 9, 0);
+    CHECK(error.generation == 5); // 10^32 squared
+    CHECK(runtime_diagnostic(error, bytecode, true).help ==
+          std::vector<std::string>{"the value grows with every generation and passes 3.4e38, the "
+                                   "largest binary32 number: stop it with a condition such as `x < "
+                                   "100`, or bound it, as in `min(x * x, 100)`"});
+}
+
+TEST_CASE("the message about decomposition without end advises more passes if they are allowed") {
+    BytecodeBuilder builder;
+    builder.axiom("A(0)").production(Stage::Decompose, "d : A(x) : * : A(x)");
+    Bytecode bytecode = builder.build();
+    RuntimeError error;
+    error.kind = RuntimeErrorKind::TooDeep;
+    error.production = ProductionId{0};
+    error.symbol = bytecode.symbol_of(0);
+    error.parameters = {0.0F};
+    const auto help = [&](std::uint32_t depth) {
+        bytecode.settings.decompose_depth = depth;
+        return runtime_diagnostic(error, bytecode, true).help;
+    };
+    const auto advice = [](const std::string& passes) {
+        return std::vector<std::string>{"let its productions end" + passes +
+                                        " or keep the remaining modules unchanged with `#set "
+                                        "at_depth stop;`"};
+    };
+    const std::string raise = ", raise the number of passes with `#set decompose_depth ";
+    CHECK(help(3) == advice(raise + "30;`,"));
+    CHECK(help(kMaxDepth / 2) == advice(raise + "100000;`,"));
+    CHECK(help(kMaxDepth) == advice(""));
+    // A parameter that becomes small, but not 0, has an advice of its own.
+    error.parameters = {1e-7F};
+    CHECK(help(3).size() == 2);
+}

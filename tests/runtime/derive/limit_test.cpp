@@ -103,6 +103,25 @@ TEST_CASE("the message names the production that adds the most modules") {
     CHECK(derivation.limit().production == 2);
 }
 
+TEST_CASE("a limit that no production causes names none") {
+    std::string axiom;
+    for (int i = 0; i < 100'000; ++i) {
+        axiom += "A(1)";
+    }
+    BytecodeBuilder builder;
+    builder.fold = false;
+    builder.axiom(axiom).production("p : A(x) : * : A(x+1)");
+    const Bytecode bytecode = builder.build();
+    DeriveOptions options;
+    options.limits.max_bytes = 750'000; // for one word of 500,000 bytes, not for two
+    Derivation derivation(bytecode, options);
+    REQUIRE(derivation.start() == std::nullopt);
+    REQUIRE(derivation.step() == Stop::Limit);
+    CHECK(derivation.limit().kind == LimitKind::Memory);
+    CHECK(derivation.limit().predicted_modules == 100'000);
+    CHECK(derivation.limit().production == kNone);
+}
+
 TEST_CASE("a limit on memory") {
     const Bytecode bytecode = koch();
     DeriveOptions options;

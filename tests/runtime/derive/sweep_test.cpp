@@ -210,6 +210,37 @@ TEST_CASE("a sweep can be cancelled and keeps to the limit on memory") {
     }
 }
 
+TEST_CASE("a limit that a sweep reaches names the last complete word") {
+    // The error in generation 1 is looked for with tables of neighbours, which need memory.
+    std::string axiom;
+    for (int i = 0; i < 100'000; ++i) {
+        axiom += i % 2 == 0 ? "A(1)" : "[A(1)]";
+    }
+    BytecodeBuilder builder = swept(axiom + "A(0)");
+    builder.fold = false;
+    builder.production("p : A(x) : * : A(x)");
+    builder.production(Stage::Down, "d : A(x) > A(y) : step() == 1 : A(x/y)");
+    const Bytecode bytecode = builder.build();
+    bool has_stopped_in_sweep = false;
+    for (std::uint64_t limit = 1'000'000; limit < 8'000'000; limit += 100'000) {
+        DeriveOptions options;
+        options.generations = 3;
+        options.limits.max_bytes = limit;
+        bool sweeps = false;
+        options.on_pass = [&sweeps](const DerivationPass& pass) {
+            sweeps = pass.kind == DerivationPass::Kind::Down;
+        };
+        Derivation derivation(bytecode, options);
+        if (derivation.derive() != Stop::Limit) {
+            continue;
+        }
+        has_stopped_in_sweep = has_stopped_in_sweep || sweeps;
+        CHECK(derivation.age() == 0);
+        CHECK(derivation.limit().generation == 0);
+    }
+    CHECK(has_stopped_in_sweep);
+}
+
 TEST_CASE("deep branches and long runs of ignored modules are swept in linear time") {
     // 200,000 levels, and as many ignored modules before the next module: quadratic work would
     // take hours.

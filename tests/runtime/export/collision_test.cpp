@@ -101,6 +101,34 @@ TEST_CASE("the shapes of a straight pole with a bough are two capsules") {
     CHECK(volume_of(shapes[0]) < std::numbers::pi * 0.25 * 9.334);
 }
 
+TEST_CASE("of children that are equal the first continues a bough") {
+    test::Plant plant;
+    const std::uint32_t trunk = plant.add(kNoSegment, glm::vec3(0, 1, 0), 1.0F);
+    const std::uint32_t first = plant.add(trunk, glm::vec3(0.1F, 1, 0), 1.0F);
+    const std::uint32_t second = plant.add(trunk, glm::vec3(-0.1F, 1, 0), 1.0F);
+    const std::vector<BoughPiece> pieces = find_boughs(plant.skeleton());
+    REQUIRE(pieces.size() == 2);
+    CHECK(pieces[0].segments == std::vector<std::uint32_t>{trunk, first});
+    CHECK(pieces[1].segments == std::vector<std::uint32_t>{second});
+}
+
+TEST_CASE("a trunk that tapers is cut where its radii differ by more than a factor of 1.6") {
+    test::Plant plant;
+    std::uint32_t last = kNoSegment;
+    float radius = 1.0F; // m; 0.8^-2 = 1.5625, and 0.8^-3 = 1.95
+    for (int i = 0; i < 10; ++i) {
+        last = plant.add(last, glm::vec3(0, 1, 0), 1.0F,
+                         {.base_radius = radius, .tip_radius = radius});
+        radius *= 0.8F;
+    }
+    const std::vector<BoughPiece> pieces = find_boughs(plant.skeleton());
+    REQUIRE(pieces.size() == 4);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(pieces[i].segments.size() == 3);
+    }
+    CHECK(pieces[3].segments.size() == 1);
+}
+
 TEST_CASE("hulls contain the joints of their segments") {
     const Skeleton plant = test::random_tree(4, 3);
     const std::vector<BoughPiece> pieces = find_boughs(plant);

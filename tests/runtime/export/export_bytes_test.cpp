@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files of tiny meshes, compared byte by byte.
 #include "runtime/export/export.h"
+#include "runtime/export/impl/usda_parts.h"
 #include "tests/support/meshes.h"
 
 #include <catch2/catch.hpp>
@@ -153,6 +154,12 @@ TEST_CASE("pictures of an OBJ and of a USDA include the colour of the material")
         std::vector<std::string> found;
         for (const PictureFile& file : files.value()) {
             CHECK(file.bytes.substr(1, 3) == "PNG");
+            std::string written;
+            CHECK(write_picture_file(file, [&written](std::string_view piece) {
+                      written += piece;
+                      return true;
+                  }).ok());
+            CHECK(written == file.bytes);
             found.push_back(file.name);
         }
         return found;
@@ -277,6 +284,27 @@ TEST_CASE("a USDA of a triangle") {
     CHECK(has("        int[] indices = [0]\n"
               "        rel material:binding = </Plant/Materials/plain_red>\n"));
     CHECK_FALSE(has("primvars"));
+}
+
+TEST_CASE("a USDA has the triangles in the order of the parts") {
+    Mesh mesh = test::triangle_mesh();
+    mesh.positions.resize(6);
+    mesh.normals.resize(6, mesh.normals[0]);
+    mesh.indices = {0, 1, 2, 3, 4, 5};
+    mesh.materials.push_back(mesh.materials[0]);
+    mesh.parts = {{0, 3, 3}, {1, 0, 3}};
+    const std::string text = exported(mesh, ExportFormat::Usda);
+    CHECK(text.find("int[] faceVertexIndices = [3, 4, 5, 0, 1, 2]\n") != std::string::npos);
+}
+
+TEST_CASE("a USDA moves the pivot to the origin, then scales, then turns") {
+    CHECK(usda_place(UpAxis::Y, LengthUnit::Metres, glm::vec3(0.0F)).empty());
+    CHECK(usda_place(UpAxis::Z, LengthUnit::Centimetres, {1.0F, 2.0F, 3.0F}) ==
+          "    double xformOp:rotateX = 90\n"
+          "    double3 xformOp:scale = (100, 100, 100)\n"
+          "    double3 xformOp:translate = (-1, -2, -3)\n"
+          "    uniform token[] xformOpOrder = "
+          "[\"xformOp:rotateX\", \"xformOp:scale\", \"xformOp:translate\"]\n\n");
 }
 
 TEST_CASE("a USDA writes each colour of vertices once") {

@@ -6,6 +6,7 @@
 #include "runtime/meshing/looks.h"
 #include "runtime/meshing/texture.h"
 #include "tests/support/meshes.h"
+#include "tests/support/plants.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -31,9 +32,9 @@ struct File {
     std::string data;
 };
 
-File exported(const Mesh& mesh, const ExportInfo& info) {
+File exported(const Mesh& mesh, const ExportInfo& info, const Skeleton& plant = {}) {
     std::string bytes;
-    REQUIRE(export_mesh(mesh, {}, ExportFormat::Glb, info, [&bytes](std::string_view piece) {
+    REQUIRE(export_mesh(mesh, plant, ExportFormat::Glb, info, [&bytes](std::string_view piece) {
                 bytes += piece;
                 return true;
             }).ok());
@@ -413,7 +414,11 @@ TEST_CASE("a glTF names its buffer and pictures with escapes") {
         make_picture_files(mesh, ExportFormat::Gltf, info);
     REQUIRE(pictures.ok());
     REQUIRE(pictures.value().size() == document["images"].size());
+    REQUIRE(pictures.value().size() == 3);
     CHECK(pictures.value()[1].name == "a b.bark_normals.png");
+    const auto texture = [](MaterialKind kind) { return encode_png(material_texture(kind)); };
+    CHECK(pictures.value()[0].bytes == texture(MaterialKind::Bark));
+    CHECK(pictures.value()[2].bytes == texture(MaterialKind::Leaf));
     // A GLB, which contains everything, has the same arrays and pictures.
     const File whole = exported(mesh, ExportCompression::None);
     CHECK(whole.data.substr(0, text.size()) == text);
@@ -434,6 +439,27 @@ TEST_CASE("data of every array begins at a multiple of four bytes") {
                 CHECK(packed.value("byteOffset", 0U) % 4 == 0);
             }
         }
+    }
+}
+
+TEST_CASE("wind data are two pairs of texture coordinates") {
+    test::Plant stem; // its pivot is its base, so a vertex at height y is y from the pivot
+    stem.add(kNoSegment, glm::vec3(0.0F, 1.0F, 0.0F), 2.0F);
+    Mesh mesh;
+    REQUIRE(make_mesh(stem.skeleton(), {}, {.segments = true}, mesh) == std::nullopt);
+    ExportInfo info;
+    info.wind_data = true;
+    const File file = exported(mesh, info, stem.skeleton());
+    const std::string positions = items(file, accessor_of(file, 0, "POSITION"));
+    const std::string pivots = items(file, accessor_of(file, 0, "TEXCOORD_1"));
+    const std::string motions = items(file, accessor_of(file, 0, "TEXCOORD_2"));
+    REQUIRE(pivots.size() / 8 == positions.size() / 12);
+    for (std::size_t i = 0; i < pivots.size() / 8; ++i) {
+        CHECK(at<float>(pivots, 2 * i) == 0.0F); // height of the pivot
+        const float height = std::clamp(at<float>(positions, 3 * i + 1), 0.0F, 2.0F);
+        CHECK(at<float>(pivots, 2 * i + 1) == Approx(height).margin(1e-6)); // the tip is round
+        CHECK(at<float>(motions, 2 * i) == 0.0F);                           // phase of the trunk
+        CHECK(at<float>(motions, 2 * i + 1) == 1.0F); // stiffness of the trunk
     }
 }
 
