@@ -403,7 +403,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         if (symbol.turtle != TurtleOperation::MeshFile && !is_polygon_picture) {
             continue;
         }
-        const std::string path = path_text(folder / path_of(path_without_scale(symbol.mesh_file)));
+        const std::string path = path_text(folder / path_of(path_of_object(symbol.mesh_file)));
         if (is_polygon_picture || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {
