@@ -4,6 +4,7 @@
 #include "runtime/meshing/impl/organ_sheets.h"
 #include "runtime/meshing/impl/surfaces.h"
 #include "runtime/meshing/impl/triangulate.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/turtle/organs.h"
 
 #include <glm/geometric.hpp>
@@ -19,6 +20,8 @@ namespace {
 
 class OrganWriter {
 public:
+    explicit OrganWriter(const Looks* looks) : looks_(looks) {}
+
     OrganShape write(const std::vector<OrganSheet>& sheets, ItemColour end_colour) {
         for (std::size_t i = 0; i < sheets.size(); ++i) {
             const OrganSheet& sheet = sheets[i];
@@ -83,11 +86,13 @@ private:
             }
             ShapePart& part = part_of(sheet.rings[row].colour, sheet.layout.closed);
             const auto first = static_cast<std::uint32_t>(part.positions.size());
+            const float length = picture_length(looks_, sheet.rings[row].colour);
             for (std::size_t r = row; r <= last; ++r) {
                 const OrganRing& ring = sheet.rings[r];
+                const double v = -ring.along / static_cast<double>(length);
                 for (std::uint32_t c = 0; c < columns; ++c) {
                     append_vertex(part, ring.positions[c], normals[r * columns + c],
-                                  {ring.around[c], -ring.along});
+                                  {ring.around[c], v});
                 }
             }
             for (std::size_t r = row; r < last; ++r) {
@@ -260,6 +265,7 @@ private:
         return corners;
     }
 
+    const Looks* looks_;
     OrganShape shape_;
 };
 
@@ -276,8 +282,9 @@ OrganShape make_organ(const Skeleton& skeleton,
                       const PlacedObject& object,
                       std::uint32_t sides,
                       std::uint32_t level) {
-    return OrganWriter().write(sheets_of(skeleton, object, sides, level),
-                               points_of(skeleton, object).back().colour);
+    return OrganWriter(skeleton.looks.get())
+        .write(sheets_of(skeleton, object, sides, level),
+               points_of(skeleton, object).back().colour);
 }
 
 std::vector<OrganStrip> organ_strips(const Skeleton& skeleton, const PlacedObject& object) {

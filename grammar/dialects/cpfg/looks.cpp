@@ -71,6 +71,7 @@ std::vector<ViewLine> lines_of(FileId file, std::string_view text) {
 
 constexpr double kColours = 256.0;
 constexpr double kMinScale = 1e-6;
+constexpr double kMaxRatio = 1e6;
 
 struct ViewTropism {
     std::string kind;
@@ -153,10 +154,9 @@ public:
     }
 
 private:
-    void leave_out(const ViewLine& line, const std::string& why) { leave_out(line, line.key, why); }
-    /// `what`: the line, or a part of it.
-    void leave_out(const ViewLine& line, std::string_view what, const std::string& why) {
-        looks_.left_out.push_back({"`" + std::string(what) + "` is left out: " + why, line.span});
+    void leave_out(const ViewLine& line, const std::string& why) {
+        looks_.left_out.push_back(
+            {"`" + std::string(line.key) + "` is left out: " + why, line.span});
     }
     std::optional<double> number_of(const ViewLine& line) {
         std::string_view value = line.value;
@@ -251,8 +251,7 @@ private:
         }
     }
 
-    /// Reads `F: bark.rgb L: n H: n E: m R: 1 S`. Filters (L, H) and the ratio of the sides on
-    /// branches (R) have no effect.
+    /// Reads `F: bark.rgb L: n H: n E: m R: 1 S`. Filters (L, H) have no effect.
     void read_texture(const ViewLine& line) {
         if (uses_.textures.empty() && !uses_.has_any_texture) {
             return;
@@ -266,7 +265,6 @@ private:
             return word;
         };
         CpfgTexture texture;
-        double ratio = 1.0;
         for (std::string_view key = next_word(); !key.empty(); key = next_word()) {
             const std::string_view value = key[0] == 'S' ? std::string_view() : next_word();
             if (key[0] == 'F') {
@@ -277,11 +275,9 @@ private:
                 texture.is_whole = true;
             } else if (key[0] == 'R') {
                 std::string_view text = value;
-                ratio = next_number(text).value_or(1.0);
+                const double ratio = next_number(text).value_or(1.0);
+                texture.ratio = ratio >= kMinScale && ratio < kMaxRatio ? ratio : 1.0;
             }
-        }
-        if (ratio != 1.0 && uses_.sets_textures) {
-            leave_out(line, "R", "a picture on a branch is as long as it is wide");
         }
         const std::string_view file = texture.file;
         constexpr std::array<std::string_view, 4> kRead = {".rgb", ".tga", ".png", ".jpg"};

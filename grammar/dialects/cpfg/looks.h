@@ -33,6 +33,7 @@ struct CpfgTexture {
     std::string file;             // empty: its format is not read
     bool replaces_colour = false; // decal; else it is multiplied by the colour
     bool is_whole = false;        // S: one picture for a whole surface, not for each patch
+    double ratio = 1.0;           // R: stretches the picture along a branch
 };
 
 /// Settings of .lsys, each with its place, and messages about lines that have no effect here.
