@@ -77,6 +77,8 @@ private:
     void write_sheet(const OrganSheet& sheet) {
         const std::vector<glm::dvec3> normals = normals_of(sheet);
         const std::uint32_t columns = sheet.layout.column_count();
+        // Seen from outside, a picture whose u follows the contour would be mirrored.
+        const bool is_mirrored = sheet.layout.closed && sheet.turns_inwards;
         std::size_t row = 0;
         while (row + 1 < sheet.rings.size()) { // rows of one colour
             std::size_t last = row + 1;
@@ -91,8 +93,8 @@ private:
                 const OrganRing& ring = sheet.rings[r];
                 const double v = -ring.along / static_cast<double>(length);
                 for (std::uint32_t c = 0; c < columns; ++c) {
-                    append_vertex(part, ring.positions[c], normals[r * columns + c],
-                                  {ring.around[c], v});
+                    const double u = is_mirrored ? 1.0 - ring.around[c] : ring.around[c];
+                    append_vertex(part, ring.positions[c], normals[r * columns + c], {u, v});
                 }
             }
             for (std::size_t r = row; r < last; ++r) {

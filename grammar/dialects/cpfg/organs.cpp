@@ -221,6 +221,8 @@ std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t side
     if (file->closed) {
         points.back() = points.front();
         turn_to_axis(points);
+    } else {
+        std::ranges::reverse(points); // u of texture coordinates falls along a contour in cpfg
     }
     for (CurvePoint& point : points) {
         // x of cpfg goes along its up, which is -U, and y to the right; they are relative to the

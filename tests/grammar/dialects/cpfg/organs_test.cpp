@@ -41,8 +41,8 @@ TEST_CASE("an open contour begins and ends at points that stand three times") {
                              "-1 0 0 3\n0 0 0 1\n1 0 0 3\n";
     const auto points = contour_points(text, 4);
     REQUIRE(points.size() == 5);
-    CHECK(points.front().y == Approx(0.5));
-    CHECK(points.back().y == Approx(-0.5));
+    CHECK(points.front().y == Approx(-0.5));
+    CHECK(points.back().y == Approx(0.5));
     CHECK(points[2].y == Approx(0.0).margin(1e-6));
     CHECK(points[2].x == Approx(0.0).margin(1e-9));
 }
