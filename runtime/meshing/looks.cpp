@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/meshing/looks.h"
 
+#include "grammar/base/number_chars.h"
 #include "runtime/meshing/impl/linear_textures.h"
 #include "runtime/meshing/mesh.h"
 #include "runtime/meshing/texture.h"
 
 #include <cmath>
+#include <limits>
+#include <system_error>
 #include <utility>
 
 namespace lsys {
@@ -54,6 +57,25 @@ ItemColour without_look(const Looks* looks, ItemColour colour) {
         bytes = bytes << 8 | nearest_srgb_byte(linear[i]);
     }
     return kOwnColour + bytes;
+}
+
+PictureName picture_name(std::string_view name) {
+    constexpr std::string_view kMark = "#ratio ";
+    const std::size_t at = name.rfind(kMark);
+    if (at == std::string_view::npos) {
+        return {name, std::nullopt};
+    }
+    const std::string_view text = name.substr(at + kMark.size());
+    float ratio = 0.0F;
+    const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), ratio);
+    const bool is_valid = error == std::errc() && end == text.data() + text.size() &&
+                          ratio > 0.0F && ratio <= std::numeric_limits<float>::max();
+    return is_valid ? PictureName{name.substr(0, at), ratio} : PictureName{name, std::nullopt};
+}
+
+float picture_length(const Looks* looks, ItemColour colour) {
+    const Look* const look = looks == nullptr ? nullptr : looks->find(colour);
+    return look == nullptr ? 1.0F : look->picture_length;
 }
 
 void apply_look(const Looks* looks, ItemColour colour, Material& material) {

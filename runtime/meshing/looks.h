@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 namespace lsys {
 
@@ -24,7 +25,17 @@ struct Look {
     std::optional<float> roughness;                      // 0 to 1
     std::optional<float> translucency;                   // 0 to 1
     std::optional<bool> two_sided;
+    float picture_length = 1.0F; // of a picture along a branch, in lengths around the branch
 };
+
+/// The name of a picture: `"bark.png"`, or `"bark.png#ratio 2"` with the length of the picture along
+/// a branch, in lengths that keep its proportions.
+struct PictureName {
+    std::string_view path;
+    std::optional<float> ratio;
+};
+/// A `#` without a ratio above 0 behind it belongs to the path.
+[[nodiscard]] PictureName picture_name(std::string_view name);
 
 struct Looks {
     std::map<ItemColour, Look> of_index;
@@ -46,6 +57,8 @@ void add_look(ItemColour index, Look look, Looks& looks);
 /// A colour that looks the same without `looks`, to 1/255 per component. An index without a look is
 /// returned unchanged.
 [[nodiscard]] ItemColour without_look(const Looks* looks, ItemColour colour);
+/// Look::picture_length of a colour; 1 without a look. `looks` may be null.
+[[nodiscard]] float picture_length(const Looks* looks, ItemColour colour);
 /// Gives a material the look of its colour; `looks` may be null.
 void apply_look(const Looks* looks, ItemColour colour, Material& material);
 

@@ -4,6 +4,7 @@
 #include "runtime/meshing/impl/organ_sheets.h"
 #include "runtime/meshing/impl/surfaces.h"
 #include "runtime/meshing/impl/triangulate.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/turtle/organs.h"
 
 #include <glm/geometric.hpp>
@@ -19,6 +20,8 @@ namespace {
 
 class OrganWriter {
 public:
+    explicit OrganWriter(const Looks* looks) : looks_(looks) {}
+
     OrganShape write(const std::vector<OrganSheet>& sheets, ItemColour end_colour) {
         for (std::size_t i = 0; i < sheets.size(); ++i) {
             const OrganSheet& sheet = sheets[i];
@@ -74,6 +77,8 @@ private:
     void write_sheet(const OrganSheet& sheet) {
         const std::vector<glm::dvec3> normals = normals_of(sheet);
         const std::uint32_t columns = sheet.layout.column_count();
+        // Seen from outside, a picture whose u follows the contour would be mirrored.
+        const bool is_mirrored = sheet.layout.closed && sheet.turns_inwards;
         std::size_t row = 0;
         while (row + 1 < sheet.rings.size()) { // rows of one colour
             std::size_t last = row + 1;
@@ -83,11 +88,13 @@ private:
             }
             ShapePart& part = part_of(sheet.rings[row].colour, sheet.layout.closed);
             const auto first = static_cast<std::uint32_t>(part.positions.size());
+            const float length = picture_length(looks_, sheet.rings[row].colour);
             for (std::size_t r = row; r <= last; ++r) {
                 const OrganRing& ring = sheet.rings[r];
+                const double v = -ring.along / static_cast<double>(length);
                 for (std::uint32_t c = 0; c < columns; ++c) {
-                    append_vertex(part, ring.positions[c], normals[r * columns + c],
-                                  {ring.around[c], -ring.along});
+                    const double u = is_mirrored ? 1.0 - ring.around[c] : ring.around[c];
+                    append_vertex(part, ring.positions[c], normals[r * columns + c], {u, v});
                 }
             }
             for (std::size_t r = row; r < last; ++r) {
@@ -260,6 +267,7 @@ private:
         return corners;
     }
 
+    const Looks* looks_;
     OrganShape shape_;
 };
 
@@ -276,8 +284,9 @@ OrganShape make_organ(const Skeleton& skeleton,
                       const PlacedObject& object,
                       std::uint32_t sides,
                       std::uint32_t level) {
-    return OrganWriter().write(sheets_of(skeleton, object, sides, level),
-                               points_of(skeleton, object).back().colour);
+    return OrganWriter(skeleton.looks.get())
+        .write(sheets_of(skeleton, object, sides, level),
+               points_of(skeleton, object).back().colour);
 }
 
 std::vector<OrganStrip> organ_strips(const Skeleton& skeleton, const PlacedObject& object) {

@@ -6,13 +6,13 @@
 #include "runtime/meshing/user_mesh.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -51,8 +51,8 @@ glm::dvec3 weighted(const ControlPoints& points,
 
 class PatchReader {
 public:
-    PatchReader(std::string_view text, std::uint64_t max_bytes)
-        : text_(text), max_bytes_(max_bytes) {}
+    PatchReader(std::string_view text, const SurfaceName& name, std::uint64_t max_bytes)
+        : text_(text), name_(name), max_bytes_(max_bytes) {}
 
     Result<UserMesh> read() {
         if (!read_header()) {
@@ -68,6 +68,9 @@ public:
             return Error{"there is no patch in it"};
         }
         smooth_edges();
+        if (name_.is_whole) {
+            map_whole();
+        }
         return std::move(mesh_);
     }
 
@@ -184,8 +187,9 @@ private:
                 }
             }
         }
-        rows_ = static_cast<std::uint32_t>(steps[0]);
-        columns_ = static_cast<std::uint32_t>(steps[1]);
+        rows_ = name_.row_steps != 0 ? name_.row_steps : static_cast<std::uint32_t>(steps[0]);
+        columns_ =
+            name_.column_steps != 0 ? name_.column_steps : static_cast<std::uint32_t>(steps[1]);
         glm::dvec3 end{};
         glm::dvec3 heading{};
         glm::dvec3 up{};
@@ -193,12 +197,12 @@ private:
             !read_direction("HEADING", heading) || !read_direction("UP", up)) {
             return false;
         }
-        const glm::dvec3 left = glm::cross(up, heading);
+        const glm::dvec3 left = glm::cross(heading, up);
         const double length = glm::length(left);
         if (!(length > 1e-6)) {
             return fail("HEADING and UP are parallel");
         }
-        axes_ = glm::dmat3(left / length, heading, glm::cross(heading, left / length));
+        axes_ = glm::dmat3(left / length, heading, glm::cross(left / length, heading));
         std::array<double, 1> size{};
         if (!read_numbers("SIZE:", size)) {
             return false;
@@ -206,7 +210,7 @@ private:
         if (!(size[0] > 0.0)) {
             return fail(fmt::format("a size of {} is not above 0", size[0]));
         }
-        scale_ = 1.0 / size[0];
+        scale_ = static_cast<double>(name_.scale) / size[0];
         return true;
     }
 
@@ -239,10 +243,11 @@ private:
                     return false;
                 }
             }
-            // As in cpfg, the coordinates in the file and those of the result are along the left,
-            // heading and up axes of the turtle.
+            // The coordinates in the file and those of the product are along the left, heading and
+            // up axes of cpfg's turtle. Its left and up are -R and -U.
             point = axes_ * (scale_ * (point - contact_));
             point.x = -point.x;
+            point.z = -point.z;
         }
         return true;
     }
@@ -283,7 +288,26 @@ private:
         mesh_.positions.emplace_back(weighted(points, bernstein(s, false), bernstein(t, false)));
         // smooth_edges() gives a vertex without a normal the mean normal of its triangles.
         mesh_.normals.emplace_back(length > 0.0 ? normal / length : glm::dvec3(0.0));
-        mesh_.texture_coordinates.emplace_back(t, s);
+        mesh_.texture_coordinates.emplace_back(s, 1.0 - t);
+    }
+
+    /// Texture coordinates that run once over the box of the surface: u along -X, the left of cpfg,
+    /// and v against the heading.
+    void map_whole() {
+        glm::vec3 low = mesh_.positions.front();
+        glm::vec3 high = low;
+        for (const glm::vec3& position : mesh_.positions) {
+            low = glm::min(low, position);
+            high = glm::max(high, position);
+        }
+        const auto part = [](float length, float whole) {
+            return whole > 0.0F ? length / whole : 0.0F;
+        };
+        for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+            const glm::vec3 from_high = high - mesh_.positions[i];
+            mesh_.texture_coordinates[i] = {part(from_high.x, high.x - low.x),
+                                            part(from_high.y, high.y - low.y)};
+        }
     }
 
     void append_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -310,7 +334,7 @@ private:
             glm::vec3& normal = mesh_.normals[i];
             if (normal == glm::vec3(0.0F)) {
                 const float length = glm::length(faces[i]);
-                normal = length > 0.0F ? faces[i] / length : glm::vec3(0.0F, 0.0F, 1.0F);
+                normal = length > 0.0F ? faces[i] / length : glm::vec3(0.0F, 0.0F, -1.0F);
             }
             const glm::vec3& at = mesh_.positions[i];
             places[{at.x, at.y, at.z}].push_back(i);
@@ -333,6 +357,7 @@ private:
     }
 
     std::string_view text_;
+    SurfaceName name_;
     std::uint64_t max_bytes_;
     std::uint64_t used_ = 0; // estimated bytes of the mesh
     std::size_t at_ = 0;     // offset of the next line in text_
@@ -343,49 +368,21 @@ private:
     std::uint32_t columns_ = 0; // steps along the rows of control points
     glm::dvec3 contact_{};      // contact point, in coordinates of the file
     glm::dmat3 axes_{1.0};      // columns: left, heading and up
-    double scale_ = 1.0;        // 1 / SIZE
+    double scale_ = 1.0;        // scale of the name / SIZE
     UserMesh mesh_;
 };
 
 } // namespace
 
-std::optional<PatchName> patch_name(std::string_view name) {
-    PatchName parts{name.substr(0, name.rfind('#'))};
-    if (parts.path.size() < name.size()) {
-        const std::string_view scale = name.substr(parts.path.size() + 1);
-        const auto [end, error] =
-            number_from_chars(scale.data(), scale.data() + scale.size(), parts.scale);
-        if (error != std::errc() || end != scale.data() + scale.size() ||
-            !(parts.scale > 0.0F && parts.scale <= std::numeric_limits<float>::max())) {
-            return std::nullopt;
-        }
-    }
-    return parts.path.ends_with(".s") || parts.path.ends_with(".S") ? std::optional(parts)
-                                                                    : std::nullopt;
-}
-
-std::string path_without_scale(const std::string& name) {
-    const std::optional<PatchName> parts = patch_name(name);
-    return parts ? std::string(parts->path) : name;
-}
-
-Result<UserMesh> read_patches(std::string_view text, std::uint64_t max_bytes) {
-    return PatchReader(text, max_bytes).read();
+Result<UserMesh>
+read_patches(std::string_view text, const SurfaceName& name, std::uint64_t max_bytes) {
+    return PatchReader(text, name, max_bytes).read();
 }
 
 Result<UserMesh>
 read_object_file(std::string_view name, std::string_view text, std::uint64_t max_bytes) {
-    const std::optional<PatchName> parts = patch_name(name);
-    if (!parts) {
-        return read_obj(text, max_bytes);
-    }
-    Result<UserMesh> mesh = read_patches(text, max_bytes);
-    if (mesh && parts->scale != 1.0F) {
-        for (glm::vec3& position : mesh.value().positions) {
-            position *= parts->scale;
-        }
-    }
-    return mesh;
+    const std::optional<SurfaceName> parts = surface_name(name);
+    return parts ? read_patches(text, *parts, max_bytes) : read_obj(text, max_bytes);
 }
 
 } // namespace lsys

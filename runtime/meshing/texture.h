@@ -34,8 +34,8 @@ struct Texture {
 /// Max texels of a picture file.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 26; // in total
 inline constexpr std::uint32_t kMaxTextureSide = 16384;             // along a side
-/// Reads a PNG, JPEG or SGI file whose texels take at most `max_bytes`. The error names any other known
-/// format.
+/// Reads a PNG, JPEG, SGI or TGA file whose texels take at most `max_bytes`. The error names any
+/// other known format.
 [[nodiscard]] Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes);
 /// A normal map is returned unchanged; its mean near (0, 0, 1) identifies it. Any other picture is
 /// a height map, from which normals are computed: white is higher than black by `bump` times 2 % of

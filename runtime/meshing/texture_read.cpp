@@ -2,6 +2,7 @@
 #include "runtime/base/jpeg_texels.h"
 #include "runtime/base/png_samples.h"
 #include "runtime/base/sgi_texels.h"
+#include "runtime/base/targa_texels.h"
 #include "runtime/meshing/texture.h"
 
 #include <fmt/format.h>
@@ -15,14 +16,18 @@ namespace lsys {
 
 namespace {
 
-/// Name of the format that the first bytes identify; empty for PNG, JPEG, SGI and unknown formats.
+/// Name of a format that is not read and that the first bytes identify; empty for other files.
 std::string_view other_format(std::string_view bytes) {
     struct Known {
         std::string_view begin;
         std::string_view name;
     };
-    constexpr std::array<Known, 5> kKnown = {
-        {{"GIF8", "GIF"}, {"BM", "BMP"}, {"RIFF", "WebP"}, {"II*", "TIFF"}, {"DDS ", "DDS"}}};
+    constexpr std::array<Known, 6> kKnown = {{{"GIF8", "GIF"},
+                                              {"BM", "BMP"},
+                                              {"RIFF", "WebP"},
+                                              {"II*", "TIFF"},
+                                              {"DDS ", "DDS"},
+                                              {"\x52\xCC", "Utah RLE picture"}}};
     const auto found = std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) {
         return bytes.starts_with(known.begin);
     });
@@ -38,7 +43,7 @@ float linear(std::uint8_t value) { // IEC 61966-2-1
 
 Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
     if (const std::string_view format = other_format(bytes); !format.empty()) {
-        return Error{fmt::format("it is a {}; only PNG, JPEG and SGI are read", format)};
+        return Error{fmt::format("it is a {}; only PNG, JPEG, SGI and TGA are read", format)};
     }
     Texture texture;
     if (is_jpeg(bytes)) {
@@ -49,6 +54,12 @@ Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
         texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
     } else if (is_sgi(bytes)) {
         Result<SgiTexels> read = read_sgi_texels(bytes, kMaxTexels, max_bytes);
+        if (!read) {
+            return read.error();
+        }
+        texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
+    } else if (is_targa(bytes)) {
+        Result<TargaTexels> read = read_targa_texels(bytes, kMaxTexels, max_bytes);
         if (!read) {
             return read.error();
         }

@@ -42,6 +42,7 @@ const sizesOfSamples = [
     [/^teach-picture.*maple/, '64 x 64'],
     [/apple-twig.*(bark|bark_normals|bark normals)\b/, '128 x 128'],
     [/apple-twig.*sphere/, '128 x 64'],
+    [/^cpfg-birch/, '64 x 64'],
     [/pipe-model-pine.*spray/, '448 x 512'],
     [/roots-in-soil.*soil_2|roots-in-soil.*soil 2/, '128 x 128'],
 ];

@@ -27,7 +27,8 @@ constexpr std::size_t kMaxGrammarBytes = 100'000;
 lsys::CpfgUses all_uses() {
     lsys::CpfgUses uses;
     uses.sets_widths = uses.steps_widths = uses.steps_colours = true;
-    uses.has_elasticity = uses.changes_tropisms = uses.has_any_texture = uses.has_any_colour = true;
+    uses.has_elasticity = uses.changes_tropisms = uses.has_any_colour = true;
+    uses.has_any_texture = uses.sets_textures = true;
     for (unsigned colour = 0; colour < 256; ++colour) {
         uses.colours.insert(colour);
     }
@@ -80,6 +81,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         !compiles(lsys::material_statements(text, all_uses(), lsys::kFirstCpfgColour))) {
         std::abort();
     }
+    for (const auto& [letter, surface] : lsys::read_organs(text, beside).surfaces) {
+        // A name with a quotation mark or a line end is refused by the scanner.
+        static_cast<void>(compiles("#object " + letter + " " + lsys::object_text(surface) + ";\n"));
+    }
     // These keep numbers as they are written, which settings may refuse: a width below 0.
     std::string looks;
     for (const lsys::CpfgLooks::Text& line :
@@ -87,6 +92,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         looks += line.text + "\n";
     }
     static_cast<void>(compiles(looks));
-    check_mesh(lsys::read_patches(text, kMaxMeshBytes));
+    check_mesh(lsys::read_patches(text, {}, kMaxMeshBytes));
     return 0;
 }

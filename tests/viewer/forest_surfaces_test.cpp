@@ -366,7 +366,8 @@ TEST_CASE("a picture of the ground that cannot be shown is an error at its place
     std::filesystem::remove(files.folder / "ground.png");
     CHECK(messages().find("wood.toml:3:10: error: ground: cannot read") != std::string::npos);
     write_text(files.folder / "ground.png", "GIF89a and so on");
-    CHECK(messages().find("it is a GIF; only PNG, JPEG and SGI are read") != std::string::npos);
+    CHECK(messages().find("it is a GIF; only PNG, JPEG, SGI and TGA are read") !=
+          std::string::npos);
     // An IHDR of 20,000 by 20,000 pixels.
     std::string large = encode_png(halves(kRed, kBlue));
     for (const std::size_t at : {std::size_t{16}, std::size_t{20}}) {

@@ -79,7 +79,8 @@ TEST_CASE("a mesh whose picture cannot be read is shown plain, with a warning at
         write_text(card.folder / "a card.png", "GIF89a and so on");
         const LscRun run = card.view();
         CHECK(run.status == 0);
-        CHECK(run.err.find("it is a GIF; only PNG, JPEG and SGI are read") != std::string::npos);
+        CHECK(run.err.find("it is a GIF; only PNG, JPEG, SGI and TGA are read") !=
+              std::string::npos);
     }
     SECTION("damaged") {
         const std::string bytes = read_text(card.folder / "a card.png");

@@ -38,6 +38,23 @@ bool is_query(std::string_view name) {
     return name.size() == 2 && name[0] == '?';
 }
 
+/// What becomes of a command that is not drawn: the end of a message.
+std::string why_left_out(std::string_view name) {
+    if (name.starts_with("@D")) {
+        return "is left out: it scales all that follows";
+    }
+    if (name == "@!") {
+        return "is left out: `contour sides:` of the view file sets the sides of all cylinders";
+    }
+    if (name == "@;" || name == "@,") {
+        return "is left out: both sides of a surface have one colour";
+    }
+    if (name == "@R" || name == "@M") {
+        return "is left out: it places the turtle";
+    }
+    return "is not drawn";
+}
+
 } // namespace
 
 void CpfgWriter::collect_names() {
@@ -109,7 +126,8 @@ void CpfgWriter::check_module(CpfgModule& module) {
                                     "`%` with a parameter keeps what it cuts off for an "
                                     "environment process");
     } else if (name.size() >= 2 && name[0] == '@' && !is_drawn(name)) {
-        expressions_.warn_left_out(module.span, name, "`" + shown(name) + "` is not drawn");
+        expressions_.warn_left_out(module.span, name,
+                                   "`" + shown(name) + "` " + why_left_out(name));
     } else if ((name == "{" || name == "}") && module.has_arguments) {
         expressions_.warn_left_out(module.span, "{(", "parameters of `" + name + "` are left out");
     }
@@ -230,10 +248,18 @@ void CpfgWriter::read_view_file() {
     };
     view_ = read_view(files.view, beside);
     organs_ = read_organs(files.view, beside);
-    const CpfgUses uses = find_uses();
+    const CpfgUses commands = find_uses();
+    CpfgUses uses = commands;
+    for (const auto& [letter, span] : surfaces_) {
+        const auto surface = organs_.surfaces.find(letter);
+        if (surface != organs_.surfaces.end() && surface->second.texture.value_or(0) != 0) {
+            uses.textures.insert(*surface->second.texture);
+        }
+    }
     const FileId view =
         files.has_view ? context_.sources.add(files.view_path, files.view) : kNoFile;
     looks_ = read_looks(view, files.view, uses);
+    map_surfaces(commands);
     materials_ =
         material_statements(files.colours, uses, looks_.first_colour.value_or(kFirstCpfgColour));
     if (!materials_.empty() && !looks_.first_colour) {
@@ -250,6 +276,22 @@ void CpfgWriter::read_view_file() {
                            looks_.first_colour.value_or(materials_.empty() ? 0 : kFirstCpfgColour));
     for (const CpfgLooks::Text& line : looks_.left_out) {
         expressions_.warn_left_out(line.span, "view " + line.text, line.text);
+    }
+}
+
+void CpfgWriter::map_surfaces(const CpfgUses& commands) {
+    const auto is_whole = [&](std::size_t number) {
+        return number >= 1 && number <= looks_.textures.size() &&
+               looks_.textures[number - 1].is_whole;
+    };
+    bool turtle_is_whole = commands.sets_textures;
+    for (std::size_t number = 1; number <= looks_.textures.size(); ++number) {
+        const bool may_be_set =
+            commands.has_any_texture || commands.textures.count(static_cast<unsigned>(number)) != 0;
+        turtle_is_whole = turtle_is_whole && (is_whole(number) || !may_be_set);
+    }
+    for (auto& [letter, surface] : organs_.surfaces) {
+        surface.is_whole = surface.texture ? is_whole(*surface.texture) : turtle_is_whole;
     }
 }
 

@@ -71,6 +71,7 @@ std::vector<ViewLine> lines_of(FileId file, std::string_view text) {
 
 constexpr double kColours = 256.0;
 constexpr double kMinScale = 1e-6;
+constexpr double kMaxRatio = 1e6;
 
 struct ViewTropism {
     std::string kind;
@@ -250,8 +251,7 @@ private:
         }
     }
 
-    /// Reads `F: bark.rgb L: n H: n E: m R: 1 S`. Filters (L, H), the ratio of the sides on
-    /// branches (R) and whole surfaces (S) have no effect.
+    /// Reads `F: bark.rgb L: n H: n E: m R: 1 S`. Filters (L, H) have no effect.
     void read_texture(const ViewLine& line) {
         if (uses_.textures.empty() && !uses_.has_any_texture) {
             return;
@@ -271,11 +271,18 @@ private:
                 texture.file = value;
             } else if (key[0] == 'E') {
                 texture.replaces_colour = value.starts_with('d');
+            } else if (key[0] == 'S') {
+                texture.is_whole = true;
+            } else if (key[0] == 'R') {
+                std::string_view text = value;
+                const double ratio = next_number(text).value_or(1.0);
+                texture.ratio = ratio >= kMinScale && ratio < kMaxRatio ? ratio : 1.0;
             }
         }
         const std::string_view file = texture.file;
-        if (!file.ends_with(".rgb") && !file.ends_with(".png") && !file.ends_with(".jpg")) {
-            leave_out(line, "only rgb, png and jpg files are read");
+        constexpr std::array<std::string_view, 4> kRead = {".rgb", ".tga", ".png", ".jpg"};
+        if (std::ranges::none_of(kRead, [&](auto end) { return file.ends_with(end); })) {
+            leave_out(line, "only rgb, tga, png and jpg files are read");
             texture.file.clear();
         }
         looks_.textures.push_back(std::move(texture));

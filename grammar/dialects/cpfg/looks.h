@@ -21,16 +21,19 @@ struct CpfgUses {
     bool has_elasticity = false;   // `_`
     bool changes_tropisms = false; // `@Ti`, `@Td` or `@Ts`
     bool has_any_texture = false;  // `@Tx(n)` with a computed n
+    bool sets_textures = false;    // `@Tx`
     bool has_any_colour = false;   // a computed colour, which may have any index
     std::set<unsigned> colours{};  // constant colours, 0 to 255
-    std::set<unsigned> textures{}; // constant n of `@Tx(n)`
+    std::set<unsigned> textures{}; // constant n of `@Tx(n)`, textures of surfaces
     bool reads_places = false;     // `?P`
 };
 
-/// `texture: F: bark.rgb E: m`.
+/// `texture: F: bark.rgb E: m S`.
 struct CpfgTexture {
     std::string file;             // empty: its format is not read
     bool replaces_colour = false; // decal; else it is multiplied by the colour
+    bool is_whole = false;        // S: one picture for a whole surface, not for each patch
+    double ratio = 1.0;           // R: stretches the picture along a branch
 };
 
 /// Settings of .lsys, each with its place, and messages about lines that have no effect here.

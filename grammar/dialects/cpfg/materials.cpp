@@ -112,6 +112,9 @@ std::string texture_statements(std::string_view colours,
         if (texture.file.empty() || !(uses.has_any_texture || uses.textures.count(n) != 0)) {
             continue;
         }
+        // Branches need the proportions of a picture; a surface has coordinates of its own.
+        const std::string how =
+            uses.sets_textures ? "#ratio " + fixed_text(static_cast<float>(texture.ratio)) : "";
         for (unsigned index = 0; index < kColours; ++index) {
             if (!is_used(index, uses, first_colour)) {
                 continue;
@@ -119,7 +122,7 @@ std::string texture_statements(std::string_view colours,
             const auto found = known.find(index);
             text += "#material " + std::to_string(kColours * n + index) +
                     (found == known.end() || texture.replaces_colour ? "" : found->second) +
-                    " picture \"" + texture.file + "\";\n";
+                    " picture \"" + texture.file + how + "\";\n";
         }
     }
     return text;

@@ -21,7 +21,9 @@ constexpr std::uint32_t kMinSides = 3;
 constexpr std::uint32_t kMaxSides = 63; // a contour has at most 64 points
 constexpr std::size_t kMaxPoints = 1000;
 constexpr std::size_t kMaxFiles = 256;
-constexpr int kStepsPerSpan = 10; // for lengths along a contour, as in cpfg
+constexpr double kMaxSteps = 10.0;    // of a patch of a surface, in cpfg
+constexpr double kMaxTexture = 255.0; // materials of .lsys have room for no more
+constexpr int kStepsPerSpan = 10;     // for lengths along a contour, as in cpfg
 
 struct ContourFile {
     bool closed = false;
@@ -65,6 +67,31 @@ bool take(std::string_view& line, std::string_view label) {
     }
     line.remove_prefix(label.size());
     return true;
+}
+
+/// Reads `TEXTURE`, `STEPS STEPS` or `STEPS STEPS TEXTURE`, as cpfg does. A negative texture is
+/// that of the turtle.
+void read_steps_and_texture(std::string_view line, CpfgSurface& surface) {
+    std::vector<double> numbers;
+    while (numbers.size() < 3) {
+        const std::optional<double> number = first_number(line);
+        if (!number) {
+            break;
+        }
+        numbers.push_back(std::trunc(*number));
+    }
+    if (numbers.size() >= 2) {
+        const auto steps = [](double count) {
+            return count == 0.0 ? 0 : static_cast<std::uint32_t>(std::clamp(count, 1.0, kMaxSteps));
+        };
+        surface.row_steps = steps(numbers[0]);
+        surface.column_steps = steps(numbers[1]);
+    }
+    const std::size_t place = numbers.size() == 1 ? 0 : 2;
+    if (numbers.size() > place && numbers[place] >= 0.0) {
+        const bool is_valid = numbers[place] <= kMaxTexture;
+        surface.texture = is_valid ? static_cast<std::uint32_t>(numbers[place]) : 0;
+    }
 }
 
 /// Appends a point, with `has_times` as often as the last number of the line says. Returns false if
@@ -194,10 +221,13 @@ std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t side
     if (file->closed) {
         points.back() = points.front();
         turn_to_axis(points);
+    } else {
+        std::ranges::reverse(points); // u of texture coordinates falls along a contour in cpfg
     }
     for (CurvePoint& point : points) {
-        // x of cpfg goes up, y to the right; they are relative to the radius.
-        point = {0.5 * point.y, 0.5 * point.x};
+        // x of cpfg goes along its up, which is -U, and y to the right; they are relative to the
+        // radius.
+        point = {0.5 * point.y, -0.5 * point.x};
     }
     const bool has_extent = std::ranges::any_of(points, [&](const CurvePoint& point) {
         return std::hypot(point.x - points.front().x, point.y - points.front().y) > 1e-6;
@@ -222,9 +252,11 @@ CpfgOrgans read_organs(std::string_view view, const FileBeside& beside) {
             }
         } else if (take(line, "surface:")) {
             const std::string_view letter = first_word(line);
-            CpfgSurface surface{std::string(first_word(line))};
+            CpfgSurface surface;
+            surface.file = first_word(line);
             surface.scale = first_number(line).value_or(1.0);
             surface.scale = surface.scale > 0.0 ? surface.scale : 1.0;
+            read_steps_and_texture(line, surface);
             if (letter.size() == 1 && organs.surfaces.size() < kMaxFiles) {
                 surface.can_be_read = beside(surface.file).has_value();
                 organs.surfaces.emplace(letter, std::move(surface));
@@ -251,8 +283,22 @@ std::string contour_statement(std::uint32_t number, const std::vector<CurvePoint
 }
 
 std::string object_text(const CpfgSurface& surface) {
-    return "\"" + surface.file + (surface.scale == 1.0 ? "" : "#" + decimal_text(surface.scale)) +
-           "\"";
+    std::string how;
+    const auto add = [&](const std::string& words) { how += (how.empty() ? "#" : " ") + words; };
+    if (surface.scale != 1.0) {
+        add(decimal_text(surface.scale));
+    }
+    if (surface.row_steps != 0 && surface.column_steps != 0) {
+        add("steps " + std::to_string(surface.row_steps) + " " +
+            std::to_string(surface.column_steps));
+    }
+    if (surface.texture) {
+        add("texture " + std::to_string(*surface.texture));
+    }
+    if (surface.is_whole) {
+        add("whole");
+    }
+    return "\"" + surface.file + how + "\"";
 }
 
 } // namespace lsys

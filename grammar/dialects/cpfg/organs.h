@@ -8,17 +8,22 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lsys {
 
-/// `surface: l leaf.s 0.5`.
+/// `surface: l leaf.s 0.5 4 6 2`: file, scale, steps of a patch, texture.
 struct CpfgSurface {
     std::string file;
     double scale = 1.0;
-    bool can_be_read = false; // the file exists
+    std::uint32_t row_steps = 0; // 0: the file states the steps
+    std::uint32_t column_steps = 0;
+    std::optional<std::uint32_t> texture; // 0: none; nullopt: that of the turtle
+    bool is_whole = false;                // one picture for the whole surface, not for each patch
+    bool can_be_read = false;             // the file exists
 };
 
 struct CpfgOrgans {
@@ -29,8 +34,8 @@ struct CpfgOrgans {
     std::map<std::uint32_t, std::string> contour_files; // name of the file, by number
     std::uint32_t sides = 0; // number of sides of a contour; 0: not given
 };
-/// Reads the surfaces and contours of a view file with the text `view`.
 
+/// Reads the surfaces and contours of a view file with the text `view`.
 [[nodiscard]] CpfgOrgans read_organs(std::string_view view, const FileBeside& beside);
 
 /// The points of a contour file at `sides` equal distances along the contour, as cpfg places them;
@@ -42,7 +47,7 @@ struct CpfgOrgans {
 [[nodiscard]] std::string contour_statement(std::uint32_t number,
                                             const std::vector<CurvePoint>& points);
 
-/// The object of a surface in quotes: `"leaf.s"`, or `"leaf.s#0.5"` with a scale.
+/// The object of a surface in quotes: `"leaf.s"`, or `"leaf.s#0.5 steps 4 6 texture 2 whole"`.
 [[nodiscard]] std::string object_text(const CpfgSurface& surface);
 
 } // namespace lsys

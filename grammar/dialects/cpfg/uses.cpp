@@ -24,6 +24,7 @@ CpfgUses CpfgWriter::find_uses() const {
         for (const CpfgModule& module : list) {
             const bool is_texture = module.name == "@Tx";
             const bool is_colour = module.name == ";" || module.name == ",";
+            uses.sets_textures = uses.sets_textures || is_texture;
             if (!(is_texture || is_colour) || module.arguments.empty()) {
                 continue;
             }

@@ -4,6 +4,7 @@
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/directions.h"
 #include "runtime/meshing/impl/groups.h"
+#include "runtime/meshing/looks.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -69,9 +70,10 @@ class ConeWriter {
 public:
     ConeWriter(const MeshBlock& block,
                std::span<std::uint32_t> indices,
+               const Looks* looks,
                std::uint64_t vertex,
                std::uint64_t index)
-        : block_(block), indices_(indices), vertex_(vertex), index_(index) {}
+        : block_(block), indices_(indices), looks_(looks), vertex_(vertex), index_(index) {}
 
     void write(const Segment& segment, std::uint32_t number, const Cone& cone) {
         number_ = number;
@@ -80,9 +82,9 @@ public:
         const float length = segment.length;
         const float slope = cone.base_radius - cone.tip_radius;
         const glm::vec2 normal = glm::normalize(glm::vec2(length, slope));
-        // The picture is square and goes once around.
         const float v =
-            -length / (std::numbers::pi_v<float> * (cone.base_radius + cone.tip_radius));
+            -length / (std::numbers::pi_v<float> * (cone.base_radius + cone.tip_radius) *
+                       picture_length(looks_, segment.colour));
         const std::uint64_t low = vertex_;
         put_ring(segment, cone.sides, {segment.base, cone.base_radius, normal, 0.0F});
         const std::uint64_t high = vertex_;
@@ -164,6 +166,7 @@ private:
 
     const MeshBlock& block_;
     std::span<std::uint32_t> indices_; // room for the indices of the current part
+    const Looks* looks_;               // of the skeleton, may be null
     std::uint64_t vertex_;             // the next vertex to write
     std::uint64_t index_;              // the next item of indices_ to write
     glm::mat3 axes_{1.0F};
@@ -231,7 +234,8 @@ void append_cylinders(const Skeleton& skeleton, const MeshOptions& options, Mesh
         return;
     }
     workers.for_each(pieces.size(), [&](std::uint64_t i) {
-        ConeWriter writer(block, indices[pieces[i].part], pieces[i].vertices, pieces[i].indices);
+        ConeWriter writer(block, indices[pieces[i].part], skeleton.looks.get(), pieces[i].vertices,
+                          pieces[i].indices);
         for (std::uint64_t item = pieces[i].first; item < pieces[i].end; ++item) {
             const std::uint32_t number = groups.items[item];
             const Segment& segment = skeleton.segments[number];

@@ -5,8 +5,8 @@
 #include "runtime/base/workers.h"
 #include "runtime/meshing/impl/droop.h"
 #include "runtime/meshing/impl/groups.h"
-#include "runtime/meshing/patch_file.h"
 #include "runtime/meshing/shapes.h"
+#include "runtime/turtle/surface_name.h"
 
 #include <fmt/format.h>
 #include <glm/mat3x3.hpp>
@@ -158,7 +158,7 @@ std::vector<std::string> object_file_names(const std::vector<std::string>& files
     std::set<std::string> taken{"", "bark", "bark normals", "leaf", "polygon", "impostor"};
     std::vector<std::string> names;
     for (const std::string& file : files) {
-        const std::string stem = stem_of(path_without_scale(file));
+        const std::string stem = stem_of(path_of_object(file));
         std::string name = stem;
         for (int number = 1; !taken.insert(small_letters(name)).second; ++number) {
             name = fmt::format("{}{}file{}", stem, stem.empty() ? "" : " ",

@@ -6,6 +6,7 @@
 #include "runtime/meshing/impl/grooves.h"
 #include "runtime/meshing/impl/stem_base.h"
 #include "runtime/meshing/impl/tube_writer.h"
+#include "runtime/meshing/looks.h"
 
 #include <glm/geometric.hpp>
 
@@ -80,11 +81,15 @@ void TubeWriter::put_ring(const Ring& ring) {
     }
 }
 
+float TubeWriter::v_of(const Ring& ring) const {
+    return static_cast<float>(-ring.arc * v_scale_) / picture_length(looks_, ring.colour);
+}
+
 void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {
     const std::uint32_t columns = ring.sides + 1;
     if (options_.texture_coordinates) {
         glm::vec2* to = block_.texture_coordinates.data() + first;
-        const float v = v_of(ring.arc);
+        const float v = v_of(ring);
         const float step = 1.0F / static_cast<float>(ring.sides);
         for (std::uint32_t i = 0; i < columns; ++i) {
             to[i] = {static_cast<float>(i) * step, v};
@@ -156,7 +161,7 @@ void TubeWriter::put_normal_map(const Ring& ring, std::uint64_t first) {
 void TubeWriter::put_tip(const glm::vec3& position, const glm::vec3& normal, const Ring& ring) {
     block_.set(at_.vertex++, {.position = position,
                               .normal = normal,
-                              .texture_coordinate = {0.5F, v_of(ring.arc)},
+                              .texture_coordinate = {0.5F, v_of(ring)},
                               .tangent = glm::vec4(ring.normal, 1.0F),
                               .palette = ring.colour});
 }

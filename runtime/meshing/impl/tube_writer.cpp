@@ -93,8 +93,10 @@ float slope_of(const Run& run, std::size_t i) {
 TubeWriter::TubeWriter(const MeshBlock& block,
                        const MeshOptions& options,
                        const Flare& flare,
+                       const Looks* looks,
                        std::uint64_t vertex)
-    : block_(block), options_(options), flare_(flare), seam_(columns_of(0, options) != 0) {
+    : block_(block), options_(options), flare_(flare), looks_(looks),
+      seam_(columns_of(0, options) != 0) {
     at_.vertex = vertex;
 }
 

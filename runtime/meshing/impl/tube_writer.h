@@ -26,10 +26,11 @@ class Roots;
 
 class TubeWriter {
 public:
-    /// `vertex`: index in `block` of the next vertex to write.
+    /// `looks`: of the skeleton, may be null. `vertex`: index in `block` of the next vertex to write.
     TubeWriter(const MeshBlock& block,
                const MeshOptions& options,
                const Flare& flare,
+               const Looks* looks,
                std::uint64_t vertex);
 
     /// Progress within a run: a place between two joints, and the frame there.
@@ -87,11 +88,12 @@ private:
     void put_break(const Run& run, Ring& ring); // writes the two rings of a broken end
     /// Whether bark noise, grooves or roots move the vertices of a ring.
     [[nodiscard]] bool has_normal_map(const Ring& ring) const;
-    [[nodiscard]] float v_of(double arc) const { return static_cast<float>(-arc * v_scale_); }
+    [[nodiscard]] float v_of(const Ring& ring) const;
 
     MeshBlock block_;
     const MeshOptions& options_;
     const Flare& flare_;
+    const Looks* looks_;
     bool seam_; // rings have a seam: one vertex more than sides
     Place at_;  // up to where the run is written
     // State of the run being written:

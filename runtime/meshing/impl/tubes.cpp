@@ -189,7 +189,8 @@ public:
                bool alone,
                const Task& task)
         : skeleton_(skeleton), alone_(alone), task_(task),
-          writer_(block, options, skeleton.tube_shape.flare, task.first_vertex) {}
+          writer_(
+              block, options, skeleton.tube_shape.flare, skeleton.looks.get(), task.first_vertex) {}
 
     void write() {
         if (task_.shared != nullptr) {

@@ -318,7 +318,7 @@ Diagnostic picture_diagnostic(const Error& error,
     }
     diagnostic.help.emplace_back(is_limit ? "raise the limit with `--max-memory`"
                                           : relative_path_help("#material", folder, grammar) +
-                                                "; PNG and JPEG files are read");
+                                                "; PNG, JPEG, SGI and TGA files are read");
     return diagnostic;
 }
 
@@ -336,7 +336,8 @@ std::optional<Stop> read_looks(const std::filesystem::path& folder,
         if (name.path.empty() || stop) {
             return nullptr;
         }
-        const std::string path = path_text(folder / path_of(name.path));
+        const std::string path =
+            path_text(folder / path_of(std::string(picture_name(name.path).path)));
         std::shared_ptr<const Texture>& picture = budget.pictures[path];
         if (picture == nullptr) {
             Result<Texture> read = read_picture_file(path, budget.left, step.project());
@@ -363,6 +364,11 @@ std::optional<Stop> read_looks(const std::filesystem::path& folder,
                            linear_of_srgb(material.colour[2])};
         }
         look.picture = load(material.picture);
+        const std::optional<float> ratio = picture_name(material.picture.path).ratio;
+        if (look.picture != nullptr && ratio) {
+            look.picture_length = *ratio * static_cast<float>(look.picture->height) /
+                                  static_cast<float>(look.picture->width);
+        }
         look.normal_map = load(material.normal);
         if (stop) {
             return stop;
@@ -403,7 +409,7 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         if (symbol.turtle != TurtleOperation::MeshFile && !is_polygon_picture) {
             continue;
         }
-        const std::string path = path_text(folder / path_of(path_without_scale(symbol.mesh_file)));
+        const std::string path = path_text(folder / path_of(path_of_object(symbol.mesh_file)));
         if (is_polygon_picture || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {

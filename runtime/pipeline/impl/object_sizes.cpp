@@ -72,7 +72,7 @@ Outcome<SensingOptions> read_object_sizes(const std::filesystem::path& folder,
         }
         sizes.mesh_lengths.resize(bytecode.symbols.size(), 1.0F);
         sizes.mesh_areas.resize(bytecode.symbols.size(), 0.0);
-        const std::string path = path_text(folder / path_of(path_without_scale(symbol.mesh_file)));
+        const std::string path = path_text(folder / path_of(path_of_object(symbol.mesh_file)));
         const Result<std::string> bytes =
             step.read_referenced(path, {~std::uint64_t{0}, budget.left});
         if (!bytes) {

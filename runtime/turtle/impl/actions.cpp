@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/turtle/impl/actions.h"
 
+#include "runtime/turtle/surface_name.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -120,6 +123,8 @@ ActionTable make_actions(const Bytecode& bytecode, const TurtleOptions& options)
             action.mesh_file = static_cast<std::uint32_t>(table.mesh_files.size());
             action.unit_length = i < options.mesh_lengths.size() ? options.mesh_lengths[i] : 1.0F;
             table.mesh_files.push_back(symbol.mesh_file);
+            const std::optional<SurfaceName> surface = surface_name(symbol.mesh_file);
+            action.texture = surface ? surface->texture.value_or(kTurtleTexture) : kTurtleTexture;
         }
         if (symbol.turtle == TurtleOperation::PolygonBegin && !symbol.mesh_file.empty()) {
             action.picture = static_cast<std::uint32_t>(table.mesh_files.size());

@@ -17,6 +17,9 @@ namespace lsys {
 /// Max arguments of a module that the turtle reads.
 inline constexpr std::uint32_t kTurtleArguments = 4;
 
+/// The texture of an object that has the texture of the turtle.
+inline constexpr std::uint32_t kTurtleTexture = 0xFFFFFFFFu;
+
 /// Cosine and sine of half an angle, for rotations by quaternions.
 struct HalfAngle {
     double cosine = 1.0;
@@ -39,6 +42,7 @@ struct Action {
     std::uint32_t mesh_file = 0;                     // index in Skeleton::mesh_files
     std::uint32_t picture = kNoPicture;              // of a polygon: index in Skeleton::mesh_files
     std::uint32_t contour = kNoContour;              // of SetContour: index in Bytecode::contours
+    std::uint32_t texture = kTurtleTexture;          // of a surface file
     char character = '\0';                           // the name, if it is one character
 };
 

@@ -151,6 +151,9 @@ bool Turtle::State::place(const Action& action, const float* arguments) {
     if (!put_object(action.operation, action.mesh_file, now.pose, size)) {
         return false;
     }
+    if (action.texture != kTurtleTexture && !is_own(now.colour)) {
+        skeleton.objects.back().colour = textured(action.texture);
+    }
     if (action.advances) {
         advance(now.pose, static_cast<double>(size) * static_cast<double>(action.unit_length));
         now.moved = true;
@@ -321,7 +324,13 @@ void Turtle::State::set_colour(double index) {
         note(TurtleFaultKind::ColourOutOfRange);
     }
     now.colour_index = static_cast<std::uint16_t>(fitting);
-    now.colour = std::min(now.texture * kTextureColours + now.colour_index, kMaxColourIndex);
+    now.colour = textured(now.texture);
+}
+
+/// The current colour index with a texture; without it if no material has this texture.
+ItemColour Turtle::State::textured(std::uint32_t texture) const {
+    const std::uint32_t valid = texture < kTextures && textures[texture] ? texture : 0;
+    return std::min(valid * kTextureColours + now.colour_index, kMaxColourIndex);
 }
 
 std::bitset<kTextures> textures_of(std::span<const BytecodeMaterial> materials) {

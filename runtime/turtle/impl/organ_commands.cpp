@@ -29,8 +29,13 @@ OrganPoint local(const OpenOrganPoint& from, const Pose& base) {
 
 bool Turtle::State::begin_organ() {
     if (organs.is_open_at(stack.size())) {
-        note(TurtleFaultKind::SurfaceWithin);
-        return true;
+        if (!traits.organs_branch) {
+            note(TurtleFaultKind::SurfaceWithin);
+            return true;
+        }
+        if (!close_organ(OrganEnd::LastPoint)) { // cpfg begins anew
+            return false;
+        }
     }
     OpenOrgan organ;
     organ.depth = stack.size();

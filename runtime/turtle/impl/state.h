@@ -201,6 +201,7 @@ struct Turtle::State {
     [[nodiscard]] double colour_after(double count) const;
     void set_colour(double index);
     void set_texture(double number); // sets 0 if no material has this number
+    [[nodiscard]] ItemColour textured(std::uint32_t texture) const;
     void set_rgb(const float* parts);
     void scale_angle(float factor);
     void turn_left(double degrees);

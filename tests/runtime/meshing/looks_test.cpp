@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -222,4 +223,42 @@ TEST_CASE("a JPEG is read as a picture", "[mesh]") {
     const Result<Texture> limited = read_picture(bytes, 100);
     REQUIRE_FALSE(limited.ok());
     CHECK(limited.error().kind == ErrorKind::Limit);
+}
+
+TEST_CASE("a longer picture has smaller coordinates along branches") {
+    const auto looks = std::make_shared<Looks>();
+    Look look;
+    look.picture = grey_picture(255);
+    look.picture_length = 4.0F;
+    add_look(3, look, *looks);
+    for (const MeshMethod method : {MeshMethod::Tubes, MeshMethod::Cylinders}) {
+        MeshOptions options;
+        options.method = method;
+        options.colours = true;
+        Mesh plain;
+        Mesh longer;
+        REQUIRE(make_mesh(skeleton_of(nullptr), {}, options, plain) == std::nullopt);
+        REQUIRE(make_mesh(skeleton_of(looks), {}, options, longer) == std::nullopt);
+        REQUIRE(plain.positions.size() == longer.positions.size());
+        int count = 0;
+        for (std::size_t i = 0; i < plain.positions.size(); ++i) {
+            const bool is_flat = std::abs(plain.normals[i].y) > 0.9F; // a cap
+            const bool is_scaled = plain.colours[i] == 3 && !is_flat;
+            const float v = plain.texture_coordinates[i].y;
+            CHECK(longer.texture_coordinates[i].y == (is_scaled ? v / 4.0F : v));
+            count += is_scaled && v != 0.0F ? 1 : 0;
+        }
+        CHECK(count > 0);
+    }
+}
+
+TEST_CASE("the name of a picture may have a ratio") {
+    CHECK(picture_name("a/bark.png#ratio 2.5").path == "a/bark.png");
+    CHECK(picture_name("a/bark.png#ratio 2.5").ratio == 2.5F);
+    for (const char* const name : {"bark.png", "a#ratio.png", "a.png#ratio 0", "a.png#ratio -1",
+                                   "a.png#ratio 1 ", "a.png#ratio inf", "a.png#2"}) {
+        CAPTURE(name);
+        CHECK(picture_name(name).path == name);
+        CHECK_FALSE(picture_name(name).ratio);
+    }
 }

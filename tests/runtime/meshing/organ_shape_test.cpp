@@ -342,6 +342,28 @@ TEST_CASE("texture coordinates are fractions around and circumferences along") {
     CHECK(static_cast<double>(lowest) == Approx(-2.0 / around).epsilon(1e-5));
 }
 
+TEST_CASE("a picture around a closed organ is not mirrored outside") {
+    BytecodeContour reversed = kSquare;
+    std::ranges::reverse(reversed.points);
+    for (const Mesh& mesh : {mesh_of("!(0.4,32)B f(2)E"), mesh_of("C0!(0.4,12)B f(2)E", {kSquare}),
+                             mesh_of("C0!(0.4,12)B f(2)E", {reversed})}) {
+        int count = 0;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const auto at = [&](std::size_t k) {
+                return mesh.texture_coordinates[mesh.indices[i + k]];
+            };
+            if (std::abs(mesh.normals[mesh.indices[i]].y) > 0.5F) {
+                continue; // a cap
+            }
+            const glm::vec2 b = at(1) - at(0);
+            const glm::vec2 c = at(2) - at(0);
+            CHECK(b.x * c.y - b.y * c.x < 0.0F); // u to the right, v down
+            ++count;
+        }
+        CHECK(count > 0);
+    }
+}
+
 TEST_CASE("a stretch has the colour of the point where it begins") {
     const Mesh mesh = mesh_of("'(3)!(0.2)B f(1)'(5)P f(1)'(7)E");
     CHECK(test::topology_of(mesh).open_edges == 0);

@@ -34,7 +34,7 @@ std::string header(const std::string& heading = "X: 0.00 Y: 1.00 Z: 0.00",
 }
 
 Result<UserMesh> read(const std::string& text) {
-    return read_patches(text, kMemory);
+    return read_patches(text, {}, kMemory);
 }
 
 double area(const UserMesh& mesh) {
@@ -67,12 +67,36 @@ TEST_CASE("a flat patch has its contact point at the origin and the scale of the
         low = std::min(low, mesh.value().positions[i].x);
         high = std::max(high, mesh.value().positions[i].x);
         CHECK(mesh.value().positions[i].z == 0.0F);
-        CHECK(mesh.value().normals[i].z == Approx(1.0F));
+        CHECK(mesh.value().normals[i].z == Approx(-1.0F)); // up of the file
     }
-    CHECK(low == Approx(-0.5F));
-    CHECK(high == Approx(1.0F));
-    CHECK(mesh.value().texture_coordinates.front() == glm::vec2(0.0F, 0.0F));
-    CHECK(mesh.value().texture_coordinates.back() == glm::vec2(1.0F, 1.0F));
+    CHECK(low == Approx(-1.0F)); // x of the file is along the left of cpfg
+    CHECK(high == Approx(0.5F));
+}
+
+TEST_CASE("texture coordinates run over each patch, u down its columns") {
+    const Result<UserMesh> mesh = read(header() + flat_patch("leaf"));
+    REQUIRE(mesh);
+    const std::vector<glm::vec2>& coordinates = mesh.value().texture_coordinates;
+    CHECK(coordinates.front() == glm::vec2(0.0F, 1.0F)); // first row, first column
+    CHECK(coordinates[6] == glm::vec2(0.0F, 0.0F));      // first row, last column
+    CHECK(coordinates.back() == glm::vec2(1.0F, 0.0F));
+}
+
+TEST_CASE("texture coordinates run over the whole surface") {
+    SurfaceName name;
+    name.is_whole = true;
+    name.row_steps = 2;
+    name.column_steps = 3;
+    const Result<UserMesh> mesh =
+        read_patches(header() + flat_patch("a") + flat_patch("b", 1), name, kMemory);
+    REQUIRE(mesh);
+    REQUIRE(mesh.value().positions.size() == 2 * 3 * 4);
+    for (std::size_t i = 0; i < mesh.value().positions.size(); ++i) {
+        const glm::vec3& at = mesh.value().positions[i]; // x from 0.5 to -2.5, y from 0 to 1.5
+        const glm::vec2& coordinate = mesh.value().texture_coordinates[i];
+        CHECK(coordinate.x == Approx((0.5F - at.x) / 3.0F).margin(1e-6));
+        CHECK(coordinate.y == Approx(1.0F - at.y / 1.5F).margin(1e-6));
+    }
 }
 
 TEST_CASE("triangles are counter-clockwise seen from the side of the normals") {
@@ -82,7 +106,7 @@ TEST_CASE("triangles are counter-clockwise seen from the side of the normals") {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         CHECK(test::twice_area(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
                                mesh.positions[mesh.indices[i + 2]])
-                  .z > 0.0);
+                  .z < 0.0);
     }
 }
 
@@ -93,7 +117,7 @@ TEST_CASE("the directions of the file turn the surface") {
     REQUIRE(mesh);
     for (const glm::vec3& position : mesh.value().positions) {
         CHECK(position.y == Approx(0.0F).margin(1e-6)); // z of the file is constant
-        CHECK(position.z >= -1e-6F);                    // y of the file
+        CHECK(position.z <= 1e-6F);                     // y of the file
     }
 }
 
@@ -151,7 +175,7 @@ TEST_CASE("a file cut anywhere is read or named, without a fault") {
 }
 
 TEST_CASE("the mesh of patches keeps within the limit of memory") {
-    const Result<UserMesh> mesh = read_patches(header() + flat_patch("leaf"), 2000);
+    const Result<UserMesh> mesh = read_patches(header() + flat_patch("leaf"), {}, 2000);
     REQUIRE_FALSE(mesh);
     CHECK(mesh.error().kind == ErrorKind::Limit);
 }
@@ -164,20 +188,7 @@ TEST_CASE("many patches at one place are read in a time linear in their count") 
     CHECK(read(text));
 }
 
-TEST_CASE("the name of a surface file may have a scale") {
-    REQUIRE(patch_name("a/leaf.s"));
-    CHECK(patch_name("a/leaf.s")->scale == 1.0F);
-    REQUIRE(patch_name("leaf.S#0.5"));
-    CHECK(patch_name("leaf.S#0.5")->path == "leaf.S");
-    CHECK(patch_name("leaf.S#0.5")->scale == 0.5F);
-    CHECK_FALSE(patch_name("leaf.s#0"));
-    CHECK_FALSE(patch_name("leaf.s#-1"));
-    CHECK_FALSE(patch_name("leaf.s#inf"));
-    CHECK_FALSE(patch_name("leaf.s#"));
-    CHECK_FALSE(patch_name("leaf.obj#2"));
-    CHECK_FALSE(patch_name("leaf.obj"));
-    CHECK(path_without_scale("leaf.s#0.5") == "leaf.s");
-    CHECK(path_without_scale("a#2.obj") == "a#2.obj");
+TEST_CASE("a surface file may have a scale") {
     const Result<UserMesh> mesh =
         read_object_file("leaf.s#0.5", header() + flat_patch("leaf"), kMemory);
     REQUIRE(mesh);

@@ -23,8 +23,8 @@ TEST_CASE("a closed contour is sampled at equal distances from the axis on") {
     REQUIRE(points.size() == 13);
     CHECK(points.front().x == points.back().x);
     CHECK(points.front().y == points.back().y);
-    CHECK(points.front().x == Approx(0.0).margin(1e-9)); // x of cpfg is up here
-    CHECK(points.front().y == Approx(1.0 / 3.0));        // (1 + 4 * 0 ... )/6 of the spline, halved
+    CHECK(points.front().x == Approx(0.0).margin(1e-9)); // x of cpfg is down here
+    CHECK(points.front().y == Approx(-1.0 / 3.0));       // (1 + 4 * 0 ... )/6 of the spline, halved
     double shortest = 1e9;
     double longest = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -69,7 +69,7 @@ TEST_CASE("surfaces and contours are listed in the view file") {
     REQUIRE(organs.contours.count(2) == 1);
     CHECK(organs.contours.at(2).empty());
     REQUIRE(organs.surfaces.size() == 2);
-    CHECK(object_text(organs.surfaces.at("l")) == "\"leaf.s#0.25\"");
+    CHECK(object_text(organs.surfaces.at("l")) == "\"leaf.s#0.25 steps 5 5\"");
     CHECK(object_text(organs.surfaces.at("m")) == "\"other.s\"");
     CHECK_FALSE(organs.surfaces.at("l").can_be_read);
     CHECK(read_organs("contour sides: 1\n", no_file).sides == 3);
@@ -77,4 +77,16 @@ TEST_CASE("surfaces and contours are listed in the view file") {
     CHECK(read_organs("polygonization level: 3\n", no_file).sides == 16);
     CHECK(read_organs("contour sides: 1000\n", no_file).sides == 63);
     CHECK(read_organs("projection: parallel\n", no_file).sides == 0);
+}
+
+TEST_CASE("the numbers behind the scale of a surface are steps and a texture") {
+    const CpfgOrgans organs =
+        read_organs("surface: a l.s 2 3\nsurface: b l.s 1 4 6 0\nsurface: c l.s 1 0 0 -1\n"
+                    "surface: d l.s 1 40 -2 300\nsurface: e l.s 1 0 5\n",
+                    no_file);
+    CHECK(object_text(organs.surfaces.at("a")) == "\"l.s#2 texture 3\"");
+    CHECK(object_text(organs.surfaces.at("b")) == "\"l.s#steps 4 6 texture 0\"");
+    CHECK(object_text(organs.surfaces.at("c")) == "\"l.s\"");
+    CHECK(object_text(organs.surfaces.at("d")) == "\"l.s#steps 10 1 texture 0\"");
+    CHECK(object_text(organs.surfaces.at("e")) == "\"l.s\"");
 }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Texels of TGA files: "Truevision TGA File Format Specification", version 2.0.
+#pragma once
+
+#include "grammar/base/result.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace lsys {
+
+/// RGBA texels by rows from the top; opaque unless the file has opacities.
+struct TargaTexels {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    std::vector<std::uint8_t> bytes;
+};
+
+/// Whether the header is one of a TGA file that is read. The format has no mark at its beginning,
+/// so other formats are tried first.
+[[nodiscard]] bool is_targa(std::string_view bytes);
+/// Reads a picture of 24 or 32 bits per pixel, of 8 bits of grey, or of 8 bits with a colour map of
+/// 24 or 32 bits, with or without run-length encoding. A picture of more than `max_pixels`, or
+/// whose texels need more than `max_bytes`, is refused before memory is allocated.
+[[nodiscard]] Result<TargaTexels>
+read_targa_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes);
+
+} // namespace lsys

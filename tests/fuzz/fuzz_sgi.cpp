@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Reads any bytes as an SGI file.
+#include "runtime/base/sgi_texels.h"
+
+#include <cstdlib>
+#include <string_view>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    constexpr std::uint64_t kMaxPixels = 1U << 18U;
+    const lsys::Result<lsys::SgiTexels> read =
+        lsys::read_sgi_texels({reinterpret_cast<const char*>(data), size}, kMaxPixels, 16U << 20U);
+    if (read &&
+        read.value().bytes.size() != std::uint64_t{read.value().columns} * read.value().rows * 4) {
+        std::abort();
+    }
+    return 0;
+}

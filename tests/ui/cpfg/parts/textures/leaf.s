@@ -1,0 +1,16 @@
+-1 1   0 2   0 0.5
+PRECISION S: 2 T: 2
+CONTACT POINT  X: 0.00 Y: 0.00 Z: 0.00
+END POINT  X: 0.00 Y: 0.00 Z: 0.00
+HEADING  X: 0.00 Y: 1.00 Z: 0.00
+UP  X: 0.00 Y: 0.00 Z: 1.00
+SIZE: 2.00
+blade
+TOP COLOR: 0 DIFFUSE: 0.00 BOTTOM COLOR: 0 DIFFUSE: 0.00
+AL: ~ A: ~ AR: ~
+L: ~ R: ~
+BL: ~ B: ~ BR: ~
+0 2 0.4  0 2 0.4  0 2 0.4  0 2 0.4
+-1 1.5 0.6  -0.3 1.4 0.3  0.3 1.4 0.3  1 1.5 0.6
+-0.8 0.6 0.3  -0.3 0.5 0.1  0.3 0.5 0.1  0.8 0.6 0.3
+0 0 0  0 0 0  0 0 0  0 0 0
