@@ -146,11 +146,18 @@ void Diagnostics::sort_by_place() {
     const auto same = [](const Diagnostic& a, const Diagnostic& b) {
         return a.code == b.code && a.span == b.span && a.message == b.message;
     };
-    const auto unique_end = std::unique(all_.begin(), all_.end(), same);
-    for (auto dropped = unique_end; dropped != all_.end(); ++dropped) {
-        --counts_[static_cast<std::size_t>(dropped->severity)];
+    std::size_t kept_count = 0;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        if (kept_count != 0 && same(all_[kept_count - 1], all_[i])) {
+            --counts_[static_cast<std::size_t>(all_[i].severity)];
+            continue;
+        }
+        if (kept_count != i) {
+            all_[kept_count] = std::move(all_[i]);
+        }
+        ++kept_count;
     }
-    all_.erase(unique_end, all_.end());
+    all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(kept_count), all_.end());
 }
 
 bool Diagnostics::has_doubtful_error_from(std::size_t first) const {
