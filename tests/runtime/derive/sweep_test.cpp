@@ -222,7 +222,7 @@ TEST_CASE("a limit that a sweep reaches names the last complete word") {
     builder.production(Stage::Down, "d : A(x) > A(y) : step() == 1 : A(x/y)");
     const Bytecode bytecode = builder.build();
     bool has_stopped_in_sweep = false;
-    for (std::uint64_t limit = 1'000'000; limit < 8'000'000; limit += 100'000) {
+    for (std::uint64_t limit = 1'000'000; limit < 8'000'000; limit += 300'000) {
         DeriveOptions options;
         options.generations = 3;
         options.limits.max_bytes = limit;
