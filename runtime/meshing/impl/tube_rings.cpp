@@ -81,8 +81,12 @@ void TubeWriter::put_ring(const Ring& ring) {
     }
 }
 
-float TubeWriter::v_of(const Ring& ring) const {
-    return static_cast<float>(-ring.arc * v_scale_) / picture_length(looks_, ring.colour);
+float TubeWriter::v_of(const Ring& ring) {
+    if (ring.colour != picture_colour_) {
+        picture_colour_ = ring.colour;
+        picture_length_ = picture_length(looks_, ring.colour);
+    }
+    return static_cast<float>(-ring.arc * v_scale_) / picture_length_;
 }
 
 void TubeWriter::put_textured(const Ring& ring, std::uint64_t first) {

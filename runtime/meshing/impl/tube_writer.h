@@ -88,7 +88,7 @@ private:
     void put_break(const Run& run, Ring& ring); // writes the two rings of a broken end
     /// Whether bark noise, grooves or roots move the vertices of a ring.
     [[nodiscard]] bool has_normal_map(const Ring& ring) const;
-    [[nodiscard]] float v_of(const Ring& ring) const;
+    [[nodiscard]] float v_of(const Ring& ring);
 
     MeshBlock block_;
     const MeshOptions& options_;
@@ -96,6 +96,9 @@ private:
     const Looks* looks_;
     bool seam_; // rings have a seam: one vertex more than sides
     Place at_;  // up to where the run is written
+    // The picture of the ring written last:
+    ItemColour picture_colour_ = 0xFFFFFFFFu; // its colour; no colour before the first ring
+    float picture_length_ = 1.0F;             // Look::picture_length
     // State of the run being written:
     double v_scale_ = 0.0;             // texture coordinate v per arc length
     const BarkNoise* noise_ = nullptr; // null: none
