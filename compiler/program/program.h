@@ -11,6 +11,7 @@
 #include "compiler/bytecode/bytecode.h"
 #include "compiler/bytecode/settings.h"
 #include "grammar/ast/ast.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/chunked_vector.h"
 #include "grammar/base/grouped_lists.h"
 #include "grammar/base/names.h"
@@ -281,6 +282,7 @@ template <typename Visit>
 void for_each_symbol(const Program& program, const ProgramWord& word, Visit&& visit) {
     std::size_t index = word.first_module;
     for (const std::size_t end = index + word.module_count; index < end;) {
+        stop_if_cancelled();
         for (const ProgramModule module : program.modules.row(index, end - index)) {
             visit(index++, module.symbol);
         }
@@ -292,11 +294,13 @@ void for_each_symbol(const Program& program, const ProgramWord& word, Visit&& vi
 template <typename Visit>
 void for_each_module(const Program& program, const ProgramWord& word, Visit&& visit) {
     std::size_t argument = word.first_argument;
-    for (std::size_t i = word.first_module; i < std::size_t{word.first_module} + word.module_count;
-         ++i) {
-        const ProgramModule module = program.modules[i];
-        visit(i, argument, module);
-        argument += program.symbol(module.symbol).parameter_count;
+    std::size_t index = word.first_module;
+    for (const std::size_t end = index + word.module_count; index < end;) {
+        stop_if_cancelled();
+        for (const ProgramModule module : program.modules.row(index, end - index)) {
+            visit(index++, argument, module);
+            argument += program.symbol(module.symbol).parameter_count;
+        }
     }
 }
 
@@ -308,6 +312,7 @@ void for_each_value(const Program& program, std::vector<ValueId> roots, Visit&& 
         const ValueId id = roots.back();
         roots.pop_back();
         if (id != kNoValue) {
+            stop_if_cancelled();
             const Value& value = program.value(id);
             visit(id, value);
             const std::array<ValueId, 3> operands = value.operands();

@@ -4,6 +4,7 @@
 #include "grammar/ast/ast_builder.h"
 #include "grammar/ast/number.h"
 #include "grammar/ast/reports.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/characters.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/hash.h"
@@ -96,7 +97,13 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
     const std::string_view text = scanned_.text;
     std::uint32_t at = run.begin;
     std::uint32_t name_end = run.begin;
+    constexpr std::uint32_t kBytesPerLook = 1U << 16U;
+    std::uint32_t next_look = run.begin; // look at the flag of cancellation from this byte on
     while (at < run.end) {
+        if (at >= next_look) {
+            stop_if_cancelled();
+            next_look = at + kBytesPerLook;
+        }
         const char c = text[at];
         switch (class_of(c)) {
         case CharacterClass::Blank:

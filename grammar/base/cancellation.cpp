@@ -7,6 +7,11 @@ namespace lsys {
 
 namespace {
 
+// In a library that is loaded by a running program, the first use of a variable of a thread allocates
+// memory, and the GNU C library ends the process if there is none. This model needs no memory.
+#if defined(__GLIBC__)
+[[gnu::tls_model("initial-exec")]]
+#endif
 thread_local const std::atomic<bool>* cancelled = nullptr;
 
 } // namespace

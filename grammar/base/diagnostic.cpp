@@ -2,11 +2,11 @@
 #include "grammar/base/diagnostic.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/impl/edit_distance.h"
 #include "grammar/base/names.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <utility>
 
@@ -21,37 +21,8 @@ constexpr DiagnosticInfo kInfos[] = {
 };
 
 bool equals_without_case(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-        return std::tolower(static_cast<unsigned char>(x)) ==
-               std::tolower(static_cast<unsigned char>(y));
-    });
-}
-
-/// Edit distance by insertions, deletions, replacements and exchanges of two neighbours (optimal
-/// string alignment). Each counts 2, the replacement of a letter by its other case 1.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before(b.size() + 1);
-    std::vector<std::size_t> previous(b.size() + 1);
-    std::vector<std::size_t> current(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-        previous[j] = 2 * j;
-    }
-    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        current[0] = 2 * i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replace = a[i - 1] == b[j - 1]                 ? 0U
-                                        : lower(a[i - 1]) == lower(b[j - 1]) ? 1U
-                                                                             : 2U;
-            current[j] = std::min({previous[j] + 2, current[j - 1] + 2, previous[j - 1] + replace});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                current[j] = std::min(current[j], before[j - 2] + 2);
-            }
-        }
-        std::swap(before, previous);
-        std::swap(previous, current);
-    }
-    return previous[b.size()];
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower_case(x) == lower_case(y); });
 }
 
 } // namespace
@@ -201,7 +172,11 @@ void Diagnostics::promote_unstored_warnings() {
 std::optional<std::string_view> nearest_name(std::string_view wanted,
                                              const std::vector<std::string_view>& candidates) {
     // A name that differs only in letter case is always chosen. Otherwise a third of the letters of
-    // the shorter name may differ, and none if the shorter name has one or two letters.
+    // the shorter name may differ, and none if the shorter name has one or two letters. Names of
+    // more than kMaxLength letters are compared without case only, because the time of edit
+    // distances grows with the square of the length.
+    constexpr std::size_t kMaxLength = EditDistance::kMaxLength;
+    const EditDistance edits(wanted.substr(0, kMaxLength));
     std::optional<std::string_view> best;
     std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string_view candidate : candidates) {
@@ -214,8 +189,12 @@ std::optional<std::string_view> nearest_name(std::string_view wanted,
         if (equals_without_case(wanted, candidate)) {
             return candidate;
         }
-        if (const std::size_t distance = edit_distance(wanted, candidate);
-            distance <= limit && distance < best_distance) {
+        // Only a nearer name than the best one matters, and most names are farther by their bound.
+        const std::size_t farthest = std::min(limit, best_distance - 1);
+        if (longer > kMaxLength || edits.lower_bound(candidate) > farthest) {
+            continue;
+        }
+        if (const std::size_t distance = edits.distance(candidate); distance <= farthest) {
             best = candidate;
             best_distance = distance;
         }

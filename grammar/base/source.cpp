@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/base/source.h"
 
+#include "grammar/base/cancellation.h"
 #include "grammar/base/contract.h"
 #include "grammar/base/utf8.h"
 
@@ -83,6 +84,7 @@ void SourceFile::find_checkpoints() {
         while (place.offset < end) {
             step(text_, place);
             if (place.offset >= next) {
+                stop_if_cancelled();
                 checkpoints_.push_back(place);
                 next = place.offset + kStride;
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/rendering/render_diagnostic.h"
 
+#include "grammar/base/counted_text.h"
 #include "grammar/rendering/impl/excerpt.h"
 #include "grammar/rendering/impl/frame.h"
 #include "grammar/rendering/impl/json.h"
@@ -106,8 +107,7 @@ void append_human(const Diagnostic& diagnostic,
     append_labels(marks, sources, colours, out);
     if (diagnostic.labels.size() > kMaxLabels) {
         append_remark("note", colours.note,
-                      "and " + std::to_string(diagnostic.labels.size() - kMaxLabels) +
-                          " more places",
+                      "and " + counted(diagnostic.labels.size() - kMaxLabels, "more place"),
                       colours, out);
         out += '\n';
     }

@@ -21,7 +21,7 @@ struct LatestJob::State {
         std::string key;
         Job job;
         std::chrono::milliseconds max_time{};
-        std::atomic<bool> cancelled{false};
+        Flags flags;
     };
 
     ~State() {
@@ -43,7 +43,7 @@ struct LatestJob::State {
     void cancel(const std::string* key) {
         for (Entry& entry : entries) {
             if (key == nullptr || entry.key == *key) {
-                entry.cancelled = true;
+                entry.flags.cancelled = true;
             }
         }
     }
@@ -59,7 +59,7 @@ struct LatestJob::State {
             deadline = JobClock::now() + entry.max_time;
             changed.notify_all();
             lock.unlock();
-            entry.job(entry.cancelled);
+            entry.job(entry.flags);
             lock.lock();
             deadline.reset();
             entries.pop_front();
@@ -73,7 +73,9 @@ struct LatestJob::State {
             if (!deadline) {
                 changed.wait(lock);
             } else if (JobClock::now() >= *deadline) {
-                entries.front().cancelled = true;
+                Flags& flags = entries.front().flags;
+                flags.out_of_time = !flags.cancelled;
+                flags.cancelled = true;
                 deadline.reset();
             } else {
                 const JobClock::time_point until = *deadline;
@@ -135,8 +137,8 @@ LatestJob::LatestJob() = default;
 LatestJob::~LatestJob() = default;
 
 void LatestJob::start(const std::string& /*key*/, Job job, std::chrono::milliseconds /*max_time*/) {
-    const std::atomic<bool> cancelled{false};
-    job(cancelled);
+    const Flags flags;
+    job(flags);
 }
 
 void LatestJob::cancel(const std::string& /*key*/) {}

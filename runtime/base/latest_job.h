@@ -13,8 +13,14 @@ namespace lsys {
 
 class LatestJob {
 public:
+    /// The flags of a job. Each changes from false to true at most once.
+    struct Flags {
+        std::atomic<bool> cancelled{false};
+        /// The time of the job has passed before it was cancelled; set before `cancelled`.
+        std::atomic<bool> out_of_time{false};
+    };
     /// Ends soon after `cancelled` becomes true. Must not throw.
-    using Job = std::function<void(const std::atomic<bool>& cancelled)>;
+    using Job = std::function<void(const Flags& flags)>;
 
     /// The thread is started by the first job. Builds without threads (LSYS_THREADS=OFF) run each
     /// job on the calling thread, without a limit of time.

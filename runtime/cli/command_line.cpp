@@ -9,6 +9,7 @@
 #include "runtime/output/file_option_parsers.h"
 #include "runtime/output/presets.h"
 #include "runtime/program/arguments.h"
+#include "runtime/program/find_option.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
 #include "runtime/program/policy_options.h"
@@ -54,7 +55,7 @@ void add_check(CLI::App& app, CheckCommand& command) {
         });
     app.add_flag("--diff", command.diff,
                  "With --fix: print the repairs as a unified diff, and write no file")
-        ->needs("--fix");
+        ->needs(find_option(app, "--fix"));
     app.add_flag("--part", command.part,
                  "FILE is a part that other grammars include: no axiom is missing, and names may "
                  "be defined elsewhere (default: whether a grammar in its folder or the one above "
@@ -711,8 +712,7 @@ CommandLine parse_arguments(std::span<const std::string> arguments,
         return PrintText{command == nullptr ? help_text(app, "") : help_text(*command, "lsc")};
     } catch (const CLI::CallForVersion&) {
         const CLI::App& named = command == nullptr ? app : *command;
-        const CLI::Option* const verbose = named.get_option_no_throw("--verbose");
-        return PrintText{"lsc " LSC_VERSION "\n", verbose != nullptr && verbose->count() > 0};
+        return PrintText{"lsc " LSC_VERSION "\n", is_given(named, "--verbose")};
     } catch (const CLI::ParseError& error) {
         return usage_error(error, app, command, arguments);
     }

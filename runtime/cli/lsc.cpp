@@ -2,18 +2,15 @@
 #include "runtime/cli/lsc.h"
 
 #include "grammar/base/cancellation.h"
-#include "runtime/base/deadline.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/cli/command_line.h"
 #include "runtime/cli/commands.h"
 #include "runtime/program/build_info.h"
-#include "runtime/program/output_budget.h"
+#include "runtime/program/limited_run.h"
 #include "runtime/program/process.h"
 #include "runtime/program/run_files.h"
-#include "runtime/program/time_limit.h"
 
-#include <cmath>
-#include <optional>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <type_traits>
@@ -46,7 +43,13 @@ public:
         Io io = io_;
         io.files = &files;
         if constexpr (requires { command.run; }) {
-            return run_within_limits(command, io);
+            RunOptions limits = command.run;
+            if constexpr (std::is_same_v<Command, ServeCommand>) { // has a deadline of its own
+                limits.max_seconds = std::numeric_limits<double>::infinity();
+            }
+            return run_within_limits(limits, command.messages, io, [&](const Console& console) {
+                return run_cancellable(command, console);
+            });
         } else {
             const Console console(io, command.messages);
             return console.finish(run_command(command, console));
@@ -63,27 +66,6 @@ private:
         } catch (const CompilationCancelled&) {
             return ExitStatus::Interrupted;
         }
-    }
-
-    /// Runs a command within `--max-time` and `--max-output`.
-    template <typename Command>
-    ExitStatus run_within_limits(const Command& command, Io io) const {
-        OutputBudget budget(command.run.max_output);
-        io.output_budget = &budget;
-        const std::string late = late_message(command.run.max_seconds);
-        std::optional<Deadline> deadline;
-        constexpr bool kIsServer = std::is_same_v<Command, ServeCommand>; // has its own deadline
-        if (!kIsServer && std::isfinite(command.run.max_seconds)) {
-            deadline.emplace(command.run.max_seconds, io_.interrupted, end_process(io_, late));
-            io.interrupted = deadline->stop();
-        }
-        const Console console(io, command.messages);
-        const ExitStatus status = console.finish(run_cancellable(command, console));
-        if (deadline && deadline->has_passed()) {
-            console.error(late);
-            return ExitStatus::Limit;
-        }
-        return budget.is_exceeded() ? ExitStatus::Limit : status;
     }
 
     const Io& io_;

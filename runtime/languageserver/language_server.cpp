@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -418,8 +420,12 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
         return;
     }
     const LanguageServerHost& host = workspace.host;
-    const Deadline deadline(host.max_seconds, host.project.host.cancelled, {});
-    const CancellationScope scope(deadline.stop());
+    // A notification has no limit of time: half a change would leave another text than the editor's.
+    std::optional<Deadline> deadline;
+    if (is_request) {
+        deadline.emplace(host.max_seconds, host.project.host.cancelled, std::function<void()>());
+    }
+    const CancellationScope scope(deadline ? deadline->stop() : host.project.host.cancelled);
     try {
         if (is_request && method == kPlantRequest) {
             require_running();
@@ -433,7 +439,7 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
     } catch (const RequestError& error) {
         fail(error.code, error.what());
     } catch (const CompilationCancelled&) {
-        if (!deadline.has_passed()) {
+        if (!deadline || !deadline->has_passed()) {
             throw; // the program ends
         }
         fail(RpcError::RequestFailed, too_slow_message(host.max_seconds));

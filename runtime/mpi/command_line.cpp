@@ -2,12 +2,16 @@
 #include "runtime/mpi/command_line.h"
 
 #include "runtime/cli/tile_options.h"
+#include "runtime/program/find_option.h"
 #include "runtime/program/option_parsers.h"
+#include "runtime/program/policy_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace lsys::mpi {
@@ -30,12 +34,10 @@ CLI::App& add_options(CLI::App& app, bool& verbose, lsc::TilesCommand& command) 
         "tiles", "Write a forest as 3D Tiles for Cesium and other viewers, with the processes of "
                  "an MPI job");
     lsc::add_tiles(tiles, command);
-    // The limits of --untrusted are those of one process.
-    for (const char* const option :
-         {"--part", "--untrusted", "--root", "--max-time", "--max-output"}) {
-        tiles.remove_option(tiles.get_option(option));
-    }
-    tiles.get_option("--threads")
+    tiles.remove_option(find_option(tiles, "--part"));
+    find_option(tiles, "--max-output")
+        ->description("Maximum size of the files of each process (default: none)");
+    find_option(tiles, "--threads")
         ->description("Number of threads of each process; does not change the result (default: the "
                       "cores of a machine divided by the processes there, and at most the cores to "
                       "which a process is bound)");
@@ -102,15 +104,21 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
     } catch (const CLI::CallForHelp&) {
         return PrintText{first == "tiles" ? help_text(tiles, kProgram) : help_text(app, "")};
     } catch (const CLI::CallForVersion&) {
-        const CLI::Option* const option =
-            (first == "tiles" ? tiles : app).get_option_no_throw("--verbose");
-        return PrintText{fmt::format("{}\n", kVersion), option != nullptr && option->count() > 0};
+        return PrintText{fmt::format("{}\n", kVersion),
+                         is_given(first == "tiles" ? tiles : app, "--verbose")};
     } catch (const CLI::ParseError& error) {
         return explain_mistake(error, app, tiles, arguments);
     }
     if (first != "tiles") { // `lsc-mpi -v tiles`
         return UsageError{fmt::format("`{}` stands before the command", first),
                           "options stand after the command"};
+    }
+    const SceneOverrides& scene = command.overrides;
+    std::vector<std::string> named = command.files;
+    named.insert(named.end(), {scene.density_map, scene.ground_picture, scene.ground_normals,
+                               scene.grammar.view});
+    if (const auto mistake = apply_policy(tiles, std::move(named), command.run)) {
+        return *mistake;
     }
     return command;
 }

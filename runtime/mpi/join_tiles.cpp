@@ -133,7 +133,8 @@ ExitStatus join_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Io& 
     // Rank 0 prints its own messages about planning. The messages of this rank, which would be the
     // same, are sent only if planning fails here.
     std::ostringstream messages;
-    const Io collected{io.in, messages, messages, false, io.interrupted, io.program, io.revision};
+    Io collected{io.in, messages, messages, false, io.interrupted, io.program, io.revision};
+    collected.output_budget = io.output_budget;
     const Console console(collected, command.messages);
     Member member(command, ranks, console);
     std::optional<TileForest> forest;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -34,8 +35,11 @@ struct RankState {
 /// Rank 0.
 class Leader {
 public:
-    Leader(const lsc::TilesCommand& command, Ranks& ranks, const Console& console)
-        : command_(command), ranks_(ranks), console_(console),
+    Leader(const lsc::TilesCommand& command,
+           Ranks& ranks,
+           const Console& console,
+           const std::function<std::string()>& late)
+        : command_(command), ranks_(ranks), console_(console), late_(late),
           states_(static_cast<std::size_t>(ranks.count())),
           // Progress has a line for each rank, so it is printed less often for many ranks.
           progress_interval_(std::chrono::seconds(kProgressSeconds + ranks.count())) {
@@ -59,6 +63,10 @@ public:
         }
         if (status_ == ExitStatus::Ok && forest) {
             report(*forest);
+        }
+        if (const std::string late = late_(); status_ == ExitStatus::Interrupted && !late.empty()) {
+            console_.error(late);
+            status_ = ExitStatus::Limit;
         }
         console_.io().err << std::flush; // before the ranks end, which mpirun notices
         for (int rank = 1; rank < ranks_.count(); ++rank) {
@@ -263,11 +271,12 @@ private:
     const lsc::TilesCommand& command_;
     Ranks& ranks_;
     const Console& console_;
-    std::vector<RankState> states_; // by rank
-    std::uint64_t plan_ = 0;        // hash of the plan
-    std::uint64_t next_ = 0;        // the next file to hand out
-    std::uint64_t end_ = 0;         // one more than the last file to hand out
-    bool is_stopping_ = false;      // stop_all() was called
+    const std::function<std::string()>& late_; // see lead_tiles()
+    std::vector<RankState> states_;            // by rank
+    std::uint64_t plan_ = 0;                   // hash of the plan
+    std::uint64_t next_ = 0;                   // the next file to hand out
+    std::uint64_t end_ = 0;                    // one more than the last file to hand out
+    bool is_stopping_ = false;                 // stop_all() was called
     ExitStatus status_ = ExitStatus::Ok;
     Clock::time_point begin_ = Clock::now();
     Clock::time_point last_progress_ = begin_;
@@ -276,7 +285,10 @@ private:
 
 } // namespace
 
-ExitStatus lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Console& console) {
+ExitStatus lead_tiles(const lsc::TilesCommand& command,
+                      Ranks& ranks,
+                      const Console& console,
+                      const std::function<std::string()>& late) {
     Result<void> usable = lsc::check_tileset_folder(command);
     if (usable && ranks.count() > 1 &&
         std::find(command.files.begin(), command.files.end(), "-") != command.files.end()) {
@@ -288,7 +300,7 @@ ExitStatus lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Cons
     if (!usable) {
         return report_error(usable.error(), console);
     }
-    return Leader(command, ranks, console).run();
+    return Leader(command, ranks, console, late).run();
 }
 
 } // namespace lsys::mpi

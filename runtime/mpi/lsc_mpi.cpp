@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mpi/lsc_mpi.h"
 
+#include "runtime/base/deadline.h"
 #include "runtime/base/out_of_memory.h"
 #include "runtime/mpi/command_line.h"
 #include "runtime/mpi/ranks.h"
 #include "runtime/mpi/share_tiles.h"
 #include "runtime/program/build_info.h"
+#include "runtime/program/output_budget.h"
 #include "runtime/program/process.h"
+#include "runtime/program/time_limit.h"
 
+#include <cmath>
+#include <optional>
 #include <ostream>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -41,11 +47,24 @@ public:
     ExitStatus operator()(lsc::TilesCommand& command) const {
         const std::uint32_t processors = Ranks::processors_per_rank();
         command.run.threads = command.run.threads == 0 ? processors : command.run.threads;
+        OutputBudget budget(command.run.max_output);
+        Io io = io_;
+        io.output_budget = &budget;
         if (!ranks_.leads()) {
-            return join_tiles(command, ranks_, io_);
+            return join_tiles(command, ranks_, io);
         }
-        const Console console(io_, command.messages);
-        return console.finish(lead_tiles(command, ranks_, console));
+        // Rank 0 keeps the time for all ranks. If it cannot stop them in time, its process ends,
+        // and mpirun ends the others.
+        const std::string late = late_message(command.run.max_seconds);
+        std::optional<Deadline> deadline;
+        if (std::isfinite(command.run.max_seconds)) {
+            deadline.emplace(command.run.max_seconds, io.interrupted, end_process(io, late));
+            io.interrupted = deadline->stop();
+        }
+        const Console console(io, command.messages);
+        return console.finish(lead_tiles(command, ranks_, console, [&] {
+            return deadline && deadline->has_passed() ? late : std::string();
+        }));
     }
 
 private:

@@ -6,6 +6,9 @@
 #include "runtime/mpi/ranks.h"
 #include "runtime/program/console.h"
 
+#include <functional>
+#include <string>
+
 namespace lsys::lsc {
 struct TilesCommand;
 }
@@ -14,10 +17,13 @@ namespace lsys::mpi {
 
 /// Writes the tileset as rank 0. Returns the exit status of the job, which is the same on all
 /// ranks. All other ranks must call join_tiles() with an equal command. Precondition:
-/// `command.run.threads` is above 0. `console` prints the messages of the job. Throws
-/// std::bad_alloc.
-[[nodiscard]] ExitStatus
-lead_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Console& console);
+/// `command.run.threads` is above 0. `console` prints the messages of the job. `late` returns an
+/// error if the time of the job has passed, and an interruption then ends it with
+/// ExitStatus::Limit. Throws std::bad_alloc.
+[[nodiscard]] ExitStatus lead_tiles(const lsc::TilesCommand& command,
+                                    Ranks& ranks,
+                                    const Console& console,
+                                    const std::function<std::string()>& late);
 /// Takes part in lead_tiles() as a rank other than 0; returns the exit status of the job. Prints
 /// nothing: rank 0 prints for all. The output streams of `io` are not used.
 [[nodiscard]] ExitStatus join_tiles(const lsc::TilesCommand& command, Ranks& ranks, const Io& io);

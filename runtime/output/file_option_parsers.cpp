@@ -3,6 +3,7 @@
 
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/program/arguments.h"
+#include "runtime/program/find_option.h"
 #include "runtime/program/option_parsers.h"
 
 #include <fmt/format.h>
@@ -295,8 +296,7 @@ Result<std::vector<std::string>> find_preset_arguments(std::string_view name,
         }
         return preset_arguments(preset, command, *format, [&app](std::string_view word) {
             const std::size_t end = std::min(word.find('='), word.size());
-            const CLI::Option* const option =
-                app.get_option_no_throw(std::string(word.substr(0, end)));
+            const CLI::Option* const option = find_option(app, std::string(word.substr(0, end)));
             if (option == nullptr) {
                 return false;
             }

@@ -497,6 +497,27 @@ std::optional<std::size_t> find_reusable(const SceneSpecies& species,
     return std::nullopt;
 }
 
+/// The error for an option about density that the placement does not read, and for a placement
+/// without a density; empty: no error.
+std::string density_mistake(const SceneOverrides& overrides, const Scene& scene) {
+    const PlacementMethod method = scene.placement.method;
+    const bool reads_map =
+        method == PlacementMethod::DensityMap || method == PlacementMethod::DensityCells;
+    if (overrides.density && !reads_density(method)) {
+        return "--density: of the placements, only density-map, density-cells and uniform-cells "
+               "have a density";
+    }
+    if (!overrides.density_map.empty() && !reads_map) {
+        return "--density-map: of the placements, only density-map and density-cells read a map";
+    }
+    if (reads_density(method) && scene.placement.density == 0.0) {
+        return fmt::format("the placement has no density; `--density D` gives it, in trees per "
+                           "square metre{}",
+                           reads_map ? " where the map is white" : "");
+    }
+    return {};
+}
+
 } // namespace
 
 bool is_scene(const std::string& path) {
@@ -534,6 +555,9 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
     }
     if (const Result<void> applied = apply(overrides, loaded.scene); !applied) {
         return step.fail(applied.error());
+    }
+    if (std::string mistake = density_mistake(overrides, loaded.scene); !mistake.empty()) {
+        return step.fail(std::move(mistake));
     }
     return step.done(std::move(loaded));
 }
@@ -861,6 +885,11 @@ Outcome<void> place_forest(const Scene& scene, const Project& project, GrownFore
     project.begin(LongStep::Place);
     const Stopwatch placing;
     const PlacementOptions options = placement_options(scene, project, grown);
+    if (const Result<double> count = expected_places(options);
+        count && count.value() * static_cast<double>(sizeof(Tree)) >
+                     static_cast<double>(project.limits.max_bytes)) {
+        return step.end_too_large(Stop::Limit, "the list of trees");
+    }
     Result<Placement> placed = place_trees(options, *grown.terrain);
     if (!placed) {
         return step.fail(fmt::format("placement: {}", placed.error().message));

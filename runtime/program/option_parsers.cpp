@@ -6,6 +6,7 @@
 #include "grammar/dialects/dialect.h"
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/pipeline/setting_options.h"
+#include "runtime/program/find_option.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/turtle/turtle.h"
 
@@ -267,9 +268,10 @@ void add_run_limits(CLI::App& app, RunOptions& run) {
 }
 
 void describe_detail_levels(CLI::App& app) {
-    app.get_option("--level")->description(
-        "Level of detail: 0 is the finest, each further one has a half to a third of the "
-        "triangles, down to 50: fewer sides, then fewer twigs and leaves (default 0)");
+    find_option(app, "--level")
+        ->description(
+            "Level of detail: 0 is the finest, each further one has a half to a third of the "
+            "triangles, down to 50: fewer sides, then fewer twigs and leaves (default 0)");
 }
 
 void add_mesh(CLI::App& app, MeshOptions& mesh) {

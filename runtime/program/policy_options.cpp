@@ -3,6 +3,7 @@
 
 #include "grammar/base/paths.h"
 #include "runtime/program/arguments.h"
+#include "runtime/program/find_option.h"
 #include "runtime/program/memory_size.h"
 #include "runtime/program/option_parsers.h"
 
@@ -18,11 +19,6 @@ namespace {
 constexpr const char* kGroup = "Limits";
 constexpr double kUntrustedSeconds = 60.0;
 constexpr std::uint64_t kUntrustedBytes = std::uint64_t{1} << 30U; // of memory, and of output
-
-bool is_given(const CLI::App& app, const char* name) {
-    const CLI::Option* const option = app.get_option_no_throw(name);
-    return option != nullptr && option->count() > 0;
-}
 
 Result<std::string> parse_folder(const std::string& text) {
     std::error_code ignored;

@@ -7,6 +7,7 @@
 //                      of the enumeration below, each as 64 bits.
 //   LSYS_FAULT_ORDER   a file to which lines are appended: `write`, `fsync`, `syncfs` or `rename` and the
 //                      paths of the files.
+// A process that tries many faults calls lsys_set_fault() and lsys_count_calls() instead.
 // Programs that the program starts do not load the library. Linux with the GNU C library only, whose allocating
 // functions can be called by a second name.
 #include <atomic>
@@ -62,7 +63,7 @@ struct Fault {
 Fault fault;
 std::atomic<std::uint64_t> unshared_counts[CallCount]; // used without LSYS_FAULT_COUNTS
 std::atomic<std::uint64_t>* counts = unshared_counts;  // else the mapped file
-std::atomic<bool> is_ready = false;                    // begin() has run
+std::atomic<bool> is_ready = false;                    // calls are counted
 int order_file = -1; // descriptor for the order of calls; -1: not recorded
 
 Fault parse(const char* text) {
@@ -161,6 +162,25 @@ F* next(const char* name) {
 } // namespace
 
 extern "C" {
+
+// Counts all calls anew, and sets the call that fails, as LSYS_FAULT; null: none.
+__attribute__((visibility("default"))) void lsys_set_fault(const char* text) {
+    is_ready = false;
+    fault = text == nullptr ? Fault() : parse(text);
+    for (int call = 0; call < CallCount; ++call) {
+        counts[call] = 0;
+    }
+    is_ready = true;
+}
+// The number of calls with the name `call` since then.
+__attribute__((visibility("default"))) std::uint64_t lsys_count_calls(const char* call) {
+    for (int each = 0; each < CallCount; ++each) {
+        if (std::strcmp(kNames[each], call) == 0) {
+            return counts[each];
+        }
+    }
+    return 0;
+}
 
 void* malloc(size_t size) {
     return fails(Malloc) ? nullptr : __libc_malloc(size);

@@ -189,6 +189,12 @@ class Tiles(unittest.TestCase):
         self.assert_message_once(run, "cannot make the folder `blocked/3")
         self.assertFalse((folder / "tileset.json").exists())
 
+    def test_a_limit_of_time_ends_the_job(self):
+        run = self.mpi(4, *options(20000), "-o", "late", "--max-time", "1", begin=False)
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.assertIn("takes longer than 1 s, the limit of `--max-time`", run.stderr)
+        self.assertFalse((self.folder / "late" / "tileset.json").exists())
+
     def test_wrong_command_lines(self):
         for arguments, message in (
                 (["tiles", "tree.lsys", "-o", "x", "--part", "1/2"], "lsc-mpi has no `--part`"),

@@ -96,6 +96,13 @@ CASES = {
         lambda n: "#n = 1;\n#w : " + "A [ C ] " * n + "B;\n#p : A > B : * : F;\n", ("dump", "--count"))),
     "dump: decomposition": (2000, grammar(
         lambda n: "#n = 1;\n#w : " + "A " * n + ";\n#decompose d : A : * : B B;\n", ("dump", "--count"))),
+    "check: idle modules": (250, grammar(lambda n: "#n = 1;\n#w : F " + lines("flower%d stem%d ", n) + ";\n" +
+                                         lines("#p%d : stem%d : * : F;\n", n))),
+    "check: idle modules of long names": (50, grammar(lambda n: "#n = 1;\n#w : F " + lines("A" * 500 + "%d " + "B" * 500 + "%d ", n) +
+                                                       ";\n" + lines("#p%d : " + "B" * 500 + "%d : * : F;\n", n))),
+    "dump: leftmost": (4800, grammar(
+        lambda n: "#n = 20;\n#set rewriting leftmost;\n#w : " + "A B " * (n // 2) + ";\n#p : A B : * : B A;\n"
+        "#q : B A : * : A B;\n", ("dump", "--count"))),
     "dump: word": (5000, grammar(lambda n: "#n = 0;\n#w : " + "F(1.25) " * n + ";\n", ("dump",))),
     "dump: sensing": (100, grammar(
         lambda n: "#n = 1;\n#sense light shadow cell 0.5 levels 3;\n#w : " + "F ?light(0, 0, 0, 0) " * n + ";\n",

@@ -4,6 +4,7 @@
 #include "runtime/base/out_of_memory.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/host.h"
+#include "viewer/app/load_limit.h"
 #include "viewer/app/recorded_host.h"
 
 #include <utility>
@@ -22,8 +23,9 @@ ForestOutcome make_forest(const ForestRequest& request,
     if (known != nullptr) {
         outcome.files = known->files;
     }
+    const LoadLimit limit(request.options.run.max_seconds, cancelled);
     Project project{
-        record_files(make_file_host(&cancelled, request.options.run.files), outcome.files),
+        record_files(make_file_host(limit.stop(), request.options.run.files), outcome.files),
         request.options.run.limits,
         request.options.run.threads,
         {},
@@ -42,6 +44,9 @@ ForestOutcome make_forest(const ForestRequest& request,
     };
     if (!catch_out_of_memory(work, [] { return false; })) {
         outcome.messages.add_error("out of memory");
+    }
+    if (!outcome.document) {
+        limit.report(outcome.messages);
     }
     outcome.request.known.reset();
     outcome.seconds = making.seconds();

@@ -6,6 +6,7 @@
 #include "runtime/program/build_info.h"
 #include "runtime/program/console.h"
 #include "runtime/program/host.h"
+#include "runtime/program/limited_run.h"
 #include "runtime/program/process.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/forest_pictures.h"
@@ -138,9 +139,13 @@ struct Dispatch {
         return ExitStatus::Failure;
     }
     ExitStatus operator()(const ViewOptions& options) const {
+        if (!options.screenshot.empty()) {
+            return run_within_limits(
+                options.run, options.messages, io,
+                [&](const Console& console) { return run_pictures(options, console); });
+        }
         const Console console(io, options.messages);
-        return console.finish(options.screenshot.empty() ? run_window(options, console)
-                                                         : run_pictures(options, console));
+        return console.finish(run_window(options, console));
     }
 };
 

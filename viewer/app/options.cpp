@@ -4,6 +4,7 @@
 #include "runtime/pipeline/forest.h"
 #include "runtime/platform/file.h"
 #include "runtime/program/arguments.h"
+#include "runtime/program/find_option.h"
 #include "runtime/program/option_parsers.h"
 #include "runtime/program/policy_options.h"
 
@@ -310,9 +311,13 @@ void add_all(CLI::App& app, ViewOptions& options) {
     add_run_limits(app, options.run);
     add_environments(app, options.run);
     add_file_policy(app, options.run, Trust::Trusted);
-    app.get_option("--untrusted")
-        ->description("Grammars and scenes are not trusted: they name only files of their own "
-                      "folder, start no programs, and use at most 1 GiB of memory");
+    add_run_policy(app, options.run);
+    find_option(app, "--max-time")
+        ->description("Maximum duration of the command with --screenshot; in a window, of each "
+                      "loading of a file (default: none)");
+    find_option(app, "--max-output")
+        ->description("Maximum size of all pictures and of standard output together, with "
+                      "--screenshot (default: none)");
     add_messages(app, options.messages);
     app.set_version_flag("--version", "lsview " LSC_VERSION, "Print the version and exit");
     app.footer(
@@ -347,7 +352,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
     } catch (const CLI::CallForHelp&) {
         return PrintText{help_text(app, "")};
     } catch (const CLI::CallForVersion&) {
-        return PrintText{"lsview " LSC_VERSION "\n", app.count("--verbose") > 0};
+        return PrintText{"lsview " LSC_VERSION "\n", is_given(app, "--verbose")};
     } catch (const CLI::ParseError& error) {
         return to_usage_error(error, app, "lsview");
     }
@@ -359,6 +364,9 @@ ParsedOptions parse_options(std::span<const std::string> arguments) {
                                options.overrides.ground_picture, options.overrides.ground_normals});
     if (const auto mistake = apply_policy(app, std::move(named), options.run)) {
         return *mistake;
+    }
+    if (is_given(app, "--max-output") && options.screenshot.empty()) {
+        return UsageError{"--max-output belongs to pictures", "add `--screenshot FILE`"};
     }
     if (options.files.empty()) {
         const bool is_about_a_file =

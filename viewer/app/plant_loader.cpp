@@ -4,6 +4,7 @@
 #include "runtime/base/out_of_memory.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/host.h"
+#include "viewer/app/load_limit.h"
 #include "viewer/app/recorded_host.h"
 
 #include <atomic>
@@ -19,8 +20,9 @@ make(const LoadRequest& request, const std::atomic<bool>& cancelled, MakingProgr
     outcome.options = request.options;
     outcome.changed_at = request.changed_at;
     outcome.files = {request.options.file};
+    const LoadLimit limit(request.options.run.max_seconds, cancelled);
     Project project{
-        record_files(make_file_host(&cancelled, request.options.run.files), outcome.files),
+        record_files(make_file_host(limit.stop(), request.options.run.files), outcome.files),
         request.options.run.limits,
         request.options.run.threads,
         {},
@@ -38,6 +40,9 @@ make(const LoadRequest& request, const std::atomic<bool>& cancelled, MakingProgr
     };
     if (!catch_out_of_memory(work, [] { return false; })) {
         outcome.messages.add_error("out of memory");
+    }
+    if (!outcome.document) {
+        limit.report(outcome.messages);
     }
     outcome.seconds = making.seconds();
     return outcome;

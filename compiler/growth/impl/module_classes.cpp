@@ -2,6 +2,7 @@
 #include "compiler/growth/impl/module_classes.h"
 
 #include "compiler/growth/condition_grid.h"
+#include "grammar/base/cancellation.h"
 #include "grammar/base/contract.h"
 
 #include <algorithm>
@@ -171,7 +172,11 @@ void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
     }
     std::vector<Code> fixed_codes; // without duplicates
     std::size_t next_variable = 0;
+    constexpr std::uint32_t kCodesPerLook = 1U << 14U; // codes between looks at the flag
     for (std::uint32_t i = 0; i < word.codes.count; ++i) {
+        if (i % kCodesPerLook == 0) {
+            stop_if_cancelled();
+        }
         const Code code = bytecode_->template_codes[word.codes.first + i];
         if (next_variable < out.variable.size() && out.variable[next_variable].code == code) {
             ++next_variable; // variable modules are listed in the order of the word

@@ -2,9 +2,11 @@
 // Productions whose predecessor or context never occurs in any word.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"
+#include "grammar/base/suggestions.h"
 
 #include <fmt/format.h>
 
+#include <string>
 #include <string_view>
 
 namespace lsys {
@@ -144,16 +146,17 @@ private:
             }
         }
         const std::string_view name = input_.name(symbol);
-        if (const auto nearest = nearest_name(name, candidates_)) {
-            if (suggest_at_mention(diagnostic, name, *nearest)) {
+        const std::string nearest = suggestions_.nearest(name, candidates_);
+        if (!nearest.empty()) {
+            if (suggest_at_mention(diagnostic, name, nearest)) {
                 return;
             }
             span.end = span.begin + static_cast<std::uint32_t>(name.size());
             Fix fix;
-            fix.title = fmt::format("did you mean {}?", quoted(*nearest));
+            fix.title = fmt::format("did you mean {}?", quoted(nearest));
             fix.machine_applicable = false;
             if (input_.sources.text(span) == name) {
-                fix.edits = {{span, std::string(*nearest)}};
+                fix.edits = {{span, nearest}};
                 diagnostic.fixes.push_back(std::move(fix));
             } else {
                 diagnostic.help.push_back(std::move(fix.title));
@@ -216,6 +219,7 @@ private:
     std::vector<bool> explained_; // per symbol: a reported production explains why it never occurs
     GroupedLists rewriters_;      // per symbol: see rewriters_of()
     std::vector<std::string_view> candidates_; // names that suggest() may offer
+    Suggestions suggestions_;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 // Modules that are never rewritten and never drawn, and objects for modules that never occur.
 #include "compiler/lint/impl/module_use.h"
 #include "compiler/lint/impl/places.h"
+#include "grammar/base/suggestions.h"
 #include "grammar/base/synonyms.h"
 #include "grammar/base/utf8.h"
 
@@ -67,10 +68,16 @@ std::string declaration_help(const CheckInput& input, SymbolId symbol, SourceSpa
                        formals_text(input.program.symbol(symbol).parameter_count));
 }
 
+/// The names to suggest in place of names of idle modules.
+struct WorkingNames {
+    std::vector<std::string_view> names;
+    Suggestions suggestions;
+};
+
 void report_idle_name(const CheckInput& input,
                       const ModuleUse& use,
                       SymbolId symbol,
-                      const std::vector<std::string_view>& candidates,
+                      WorkingNames& working,
                       Diagnostics& diagnostics) {
     const std::string_view name = input.name(symbol);
     const ModuleMention place = use.first_place[static_cast<std::size_t>(symbol)];
@@ -90,10 +97,11 @@ void report_idle_name(const CheckInput& input,
                         "otherwise bind one: `#object {} {};`",
                         quoted(name), name, name == "J" ? "LEAF" : "SPHERE"));
     } else {
-        if (const auto nearest = nearest_name(name, candidates)) {
+        const std::string nearest = working.suggestions.nearest(name, working.names);
+        if (!nearest.empty()) {
             Fix fix;
-            fix.title = fmt::format("did you mean {}?", quoted(*nearest));
-            fix.edits = {{span, std::string(*nearest)}};
+            fix.title = fmt::format("did you mean {}?", quoted(nearest));
+            fix.edits = {{span, nearest}};
             fix.machine_applicable = false;
             diagnostic.fixes.push_back(std::move(fix));
         }
@@ -211,6 +219,7 @@ IdleModules find_idle_modules(const CheckInput& input, ModuleUse& use) {
 
 void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& diagnostics) {
     const Program& program = input.program;
+    Suggestions suggestions;
     for (const ObjectBinding& object : program.objects) {
         if (object.name_span.file != program.axiom_span().file) {
             continue; // an included file may bind more objects than this grammar uses
@@ -232,7 +241,8 @@ void check_unused_objects(const CheckInput& input, ModuleUse& use, Diagnostics& 
         // The author most likely means a module that occurs and is not drawn.
         std::vector<SymbolId> idle;
         std::vector<std::string_view> idle_names;
-        for (std::uint32_t s = 0; s < program.symbols.size(); ++s) {
+        const bool may_suggest = suggestions.claim(program.symbols.size());
+        for (std::uint32_t s = 0; may_suggest && s < program.symbols.size(); ++s) {
             if (is_idle(input, use, SymbolId{s}) && !use.reported[s]) {
                 idle.push_back(SymbolId{s});
                 idle_names.push_back(input.name(SymbolId{s}));
@@ -278,10 +288,12 @@ void check_idle_modules(const CheckInput& input, ModuleUse& use, Diagnostics& di
         return;
     }
     const IdleModules idle = find_idle_modules(input, use);
-    const std::vector<std::string_view> candidates =
-        idle.names.empty() ? std::vector<std::string_view>() : working_names(input, use);
+    WorkingNames working;
+    if (!idle.names.empty()) {
+        working.names = working_names(input, use);
+    }
     for (const SymbolId symbol : idle.names) {
-        report_idle_name(input, use, symbol, candidates, diagnostics);
+        report_idle_name(input, use, symbol, working, diagnostics);
     }
     if (!idle.letters.empty()) {
         report_idle_letters(input, use, idle.letters, diagnostics);

@@ -52,9 +52,7 @@ public:
     }
 
 private:
-    SymbolKind kind(std::size_t index) const {
-        return program_.symbol(program_.modules[index].symbol).kind;
-    }
+    SymbolKind kind(SymbolId symbol) const { return program_.symbol(symbol).kind; }
 
     /// Calls visit(symbol) for the modules of a word that stand in a polygon, including polygons
     /// that begin or end in another word.
@@ -62,50 +60,43 @@ private:
     void for_each_inside(const ProgramWord& word, Visit&& visit) const {
         std::size_t depth = 0;
         std::size_t last_end = word.first_module; // last `}` whose `{` is in another word
-        const std::size_t end = std::size_t{word.first_module} + word.module_count;
-        for (std::size_t i = word.first_module; i < end; ++i) {
-            if (kind(i) == SymbolKind::PolygonClose && depth-- == 0) {
+        for_each_symbol(program_, word, [&](std::size_t index, SymbolId symbol) {
+            if (kind(symbol) == SymbolKind::PolygonClose && depth-- == 0) {
                 depth = 0;
-                last_end = i;
+                last_end = index;
             }
-            depth += kind(i) == SymbolKind::PolygonOpen ? 1U : 0U;
-        }
+            depth += kind(symbol) == SymbolKind::PolygonOpen ? 1U : 0U;
+        });
         depth = 0;
-        for (std::size_t i = word.first_module; i < end; ++i) {
-            if (kind(i) == SymbolKind::PolygonClose) {
+        for_each_symbol(program_, word, [&](std::size_t index, SymbolId symbol) {
+            if (kind(symbol) == SymbolKind::PolygonClose) {
                 depth -= depth > 0 ? 1U : 0U;
-            } else if (kind(i) == SymbolKind::PolygonOpen) {
+            } else if (kind(symbol) == SymbolKind::PolygonOpen) {
                 ++depth;
-            } else if (depth > 0 || i < last_end) {
-                visit(program_.modules[i].symbol);
+            } else if (depth > 0 || index < last_end) {
+                visit(symbol);
             }
-        }
+        });
     }
 
     /// Calls visit(symbol) for the modules of a word that neither begin nor end a polygon.
     template <typename Visit>
     void for_each(const ProgramWord& word, Visit&& visit) const {
-        for (std::size_t i = word.first_module;
-             i < std::size_t{word.first_module} + word.module_count; ++i) {
-            visit_module(i, visit);
-        }
-    }
-
-    template <typename Visit>
-    void visit_module(std::size_t index, Visit&& visit) const {
-        if (kind(index) != SymbolKind::PolygonOpen && kind(index) != SymbolKind::PolygonClose) {
-            visit(program_.modules[index].symbol);
-        }
+        for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+            if (kind(symbol) != SymbolKind::PolygonOpen &&
+                kind(symbol) != SymbolKind::PolygonClose) {
+                visit(symbol);
+            }
+        });
     }
 
     /// Whether a polygon that the word begins is still open at its end.
     bool leaves_open(const ProgramWord& word) const {
         std::size_t depth = 0;
-        for (std::size_t i = word.first_module;
-             i < std::size_t{word.first_module} + word.module_count; ++i) {
-            depth += kind(i) == SymbolKind::PolygonOpen ? 1U : 0U;
-            depth -= kind(i) == SymbolKind::PolygonClose && depth > 0 ? 1U : 0U;
-        }
+        for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+            depth += kind(symbol) == SymbolKind::PolygonOpen ? 1U : 0U;
+            depth -= kind(symbol) == SymbolKind::PolygonClose && depth > 0 ? 1U : 0U;
+        });
         return depth > 0;
     }
 
@@ -113,12 +104,11 @@ private:
     void find_partners() {
         const auto read = [&](const ProgramWord& word) {
             std::int64_t surplus = 0; // number of `{` minus number of `}`
-            for (std::size_t i = word.first_module;
-                 i < std::size_t{word.first_module} + word.module_count; ++i) {
-                surplus += kind(i) == SymbolKind::PolygonOpen    ? 1
-                           : kind(i) == SymbolKind::PolygonClose ? -1
-                                                                 : 0;
-            }
+            for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+                surplus += kind(symbol) == SymbolKind::PolygonOpen    ? 1
+                           : kind(symbol) == SymbolKind::PolygonClose ? -1
+                                                                      : 0;
+            });
             open_words_ += surplus > 0 ? 1U : 0U;
             end_words_ += surplus < 0 ? 1U : 0U;
         };
@@ -172,9 +162,7 @@ private:
         std::optional<std::size_t> first_end; // the first `}` without its `{`
         std::size_t opened = 0;               // number of `{`
         std::size_t closed = 0;               // number of `}`
-        for (std::size_t i = word.first_module;
-             i < std::size_t{word.first_module} + word.module_count; ++i) {
-            const SymbolId id = program_.modules[i].symbol;
+        for_each_symbol(program_, word, [&](std::size_t i, SymbolId id) {
             const Symbol& symbol = program_.symbol(id);
             if (symbol.kind == SymbolKind::PolygonOpen) {
                 if (!may_nest && !nesting_reported) {
@@ -186,7 +174,7 @@ private:
                 ++closed;
                 if (open.empty()) {
                     first_end = first_end.value_or(i);
-                    continue;
+                    return;
                 }
                 const OpenPolygon ended = open.back();
                 open.pop_back();
@@ -207,7 +195,7 @@ private:
                 diagnostic.help.emplace_back(
                     "`.` adds the position to the polygon between `{` and `}`");
             }
-        }
+        });
         // If exactly one word has more `{` than `}`, and exactly one word has more `}` than `{`,
         // the second word may end the polygon that the first begins.
         if (opened != closed && !(open_words_ == 1 && end_words_ == 1)) {

@@ -5,11 +5,13 @@
 // has to be finite.
 #include "compiler/lint/checks.h"
 #include "compiler/lint/impl/places.h"
+#include "grammar/base/counted_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace lsys {
@@ -18,7 +20,7 @@ namespace {
 
 /// Tolerance of sums: 0.33 + 0.33 + 0.33 is accepted.
 constexpr double kTolerance = 0.011 + 1e-6;
-constexpr std::size_t kMaxLabels = 12; // max number of labels of one message
+constexpr std::size_t kMaxLabels = 8; // of one message; a note counts the other places
 constexpr const char* kUseWeights =
     "change the numbers, or let them be weights that are normalised: `#set weights any;`";
 
@@ -49,11 +51,17 @@ void report(const CheckInput& input, const Group& group, Diagnostics& diagnostic
                         fmt::format("the probabilities of {} sum to {:.6g}, not to 1",
                                     quoted(input.name(symbol)), group.sum));
     error.label = fmt::format("normalised, this would be {}", normalised(culprit));
+    std::size_t hidden_count = 0;
     for (const std::uint32_t member : group.members) {
-        if (member != culprit && error.labels.size() < kMaxLabels) {
+        if (member != culprit && error.labels.size() == kMaxLabels) {
+            ++hidden_count;
+        } else if (member != culprit) {
             error.labels.push_back({productions[member].weight_span,
                                     fmt::format("normalised, {}", normalised(member))});
         }
+    }
+    if (hidden_count != 0) {
+        error.notes.push_back("and " + counted(hidden_count, "more place"));
     }
     error.help.emplace_back(kUseWeights);
 }

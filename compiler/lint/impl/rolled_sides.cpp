@@ -5,11 +5,13 @@
 #include "compiler/lint/impl/lints.h"
 #include "compiler/program/message_words.h"
 #include "compiler/resolve/profiles.h"
+#include "grammar/base/cancellation.h"
 
 #include <fmt/format.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace lsys {
@@ -81,12 +83,19 @@ private:
 
     /// Clears `ends_branch_` of each symbol that stands in `word` without a `]` behind it.
     void mark_modules_without_close(const ProgramWord& word) {
-        const std::size_t end = std::size_t{word.first_module} + word.module_count;
-        for (std::size_t i = word.first_module; i < end; ++i) {
-            if (i + 1 == end || symbol_at(i + 1).kind != SymbolKind::BranchClose) {
-                ends_branch_[static_cast<std::size_t>(program_.modules[i].symbol)] = 0;
+        std::optional<SymbolId> previous;
+        const auto clear_previous = [&] {
+            if (previous) {
+                ends_branch_[static_cast<std::size_t>(*previous)] = 0;
             }
-        }
+        };
+        for_each_symbol(program_, word, [&](std::size_t, SymbolId symbol) {
+            if (program_.symbol(symbol).kind != SymbolKind::BranchClose) {
+                clear_previous();
+            }
+            previous = symbol;
+        });
+        clear_previous();
     }
 
     /// Reports two productions that differ only by rolls in opposite directions, if something is
@@ -99,7 +108,11 @@ private:
         }
         const Symbol* roll = nullptr;
         bool found_drawing = false;
+        constexpr std::size_t kModulesPerLook = std::size_t{1} << 14U; // looks at the flag
         for (std::size_t i = 0; i < count; ++i) {
+            if (i % kModulesPerLook == 0) {
+                stop_if_cancelled();
+            }
             const Symbol& a = symbol_at(one.successor.first_module + i);
             const Symbol& b = symbol_at(other.successor.first_module + i);
             if (is_roll(a.turtle) && is_roll(b.turtle)) {

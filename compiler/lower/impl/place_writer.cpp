@@ -2,6 +2,7 @@
 #include "compiler/lower/impl/place_writer.h"
 
 #include "compiler/program/module_text.h"
+#include "grammar/base/cancellation.h"
 
 #include <span>
 
@@ -79,6 +80,7 @@ void PlaceWriter::word(const ProgramWord& word, std::uint32_t first) {
     PlaceRun run; // the current run, not yet in runs_
     std::size_t index = word.first_module;
     for (const std::size_t end = index + word.module_count; index < end;) {
+        stop_if_cancelled();
         const std::span<const ProgramModule> row = program_.modules.row(index, end - index);
         index += row.size();
         for (const ProgramModule module : row) {

@@ -10,6 +10,7 @@
 #include "grammar/base/diagnostic.h"
 #include "grammar/base/names.h"
 #include "grammar/base/source.h"
+#include "grammar/base/suggestions.h"
 
 #include <cstdint>
 #include <string>
@@ -33,20 +34,6 @@ struct Resolution {
 [[nodiscard]] constexpr std::size_t index_of(NameId name) {
     return static_cast<std::size_t>(name);
 }
-
-/// Suggests the nearest known name for an unknown one. A work limit bounds the time for files with
-/// a million mistakes.
-class Suggestions {
-public:
-    /// The nearest candidate that is similar enough, or an empty string.
-    [[nodiscard]] std::string nearest(std::string_view wanted,
-                                      const std::vector<std::string_view>& candidates);
-    /// Whether the work limit allows comparing with `count` more candidates.
-    [[nodiscard]] bool may_compare(std::size_t count) const { return count <= work_left_; }
-
-private:
-    std::size_t work_left_ = 4'000'000; // candidates that may still be compared
-};
 
 /// Adds "did you mean `name`?" to a message, with a fix that is not machine-applicable.
 void suggest(Diagnostic& diagnostic, SourceSpan span, std::string_view name);

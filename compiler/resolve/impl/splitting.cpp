@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/resolve/impl/splitting.h"
 
+#include "grammar/base/cancellation.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -13,6 +15,7 @@ std::vector<std::uint8_t> names_of_modules(const Resolution& resolution) {
     std::vector<std::uint8_t> used(resolution.names.count());
     const ChunkedVector<ModuleNode>& modules = resolution.ast.modules;
     for (std::size_t first = 0; first < modules.size();) {
+        stop_if_cancelled();
         const std::span<const ModuleNode> row = modules.row(first, modules.size() - first);
         for (const ModuleNode& module : row) {
             used[index_of(module.name())] = 1;
@@ -65,6 +68,7 @@ void NameSplitter::collect_uses() {
 void NameSplitter::add_uses(ModuleList list) {
     ModuleCursor cursor(resolution_.ast, resolution_.names, resolution_.sources, list);
     for (; !cursor.done(); cursor.next()) {
+        stop_if_cancelled();
         if (unknown_[index_of(cursor.name())]) {
             const ModuleView module = cursor.view();
             uses_.insert({module.name, module.arguments.count, module.name_span.file});

@@ -2,6 +2,7 @@
 #include "compiler/resolve/impl/words.h"
 
 #include "compiler/resolve/profiles.h"
+#include "grammar/base/cancellation.h"
 
 #include <fmt/format.h>
 
@@ -56,6 +57,7 @@ std::uint32_t append_bare(ModuleReading& reading, std::uint32_t index, std::uint
     ChunkedVector<ProgramModule>& program_modules = reading.resolution.program.modules;
     const std::span<const SymbolId> bare = reading.bare;
     while (index < end) {
+        stop_if_cancelled();
         const std::span<const ModuleNode> nodes =
             std::as_const(reading.resolution.ast.modules).row(index, end - index);
         const std::span<ProgramModule> row = program_modules.extend(nodes.size());

@@ -372,18 +372,17 @@ void PlantPreview::start(const Json& id, const Json& params, Workspace& workspac
         const std::lock_guard lock(mutex_);
         running_[document->path] = {id.dump(), false};
     }
-    const auto run = [this, job, id, path = document->path](const std::atomic<bool>& cancelled) {
-        const Stopwatch watch;
+    const auto run = [this, job, id, path = document->path](const LatestJob::Flags& flags) {
         Project project = files_;
-        project.host.cancelled = &cancelled;
+        project.host.cancelled = &flags.cancelled;
         project.limits = job->limits;
         Json result;
-        if (!cancelled) {
+        if (!flags.cancelled) {
             result = catch_out_of_memory(
                 [&] { return grow(*job, project, generator_); },
                 [&] { return failed(job->answer, "limit", "the plant needs more memory"); });
         }
-        const bool out_of_time = watch.seconds() >= job->max_seconds;
+        const bool is_cancelled = flags.cancelled; // may change until the response is sent
         bool by_client = false;
         {
             const std::lock_guard lock(mutex_);
@@ -394,9 +393,9 @@ void PlantPreview::start(const Json& id, const Json& params, Workspace& workspac
             }
         }
         Json response{{"jsonrpc", "2.0"}, {"id", id}};
-        if (!cancelled || (out_of_time && !by_client)) {
+        if (!is_cancelled || (flags.out_of_time && !by_client)) {
             response["result"] =
-                !cancelled
+                !is_cancelled
                     ? std::move(result)
                     : failed(job->answer, "limit",
                              fmt::format("the plant takes longer than {:g} s", job->max_seconds));

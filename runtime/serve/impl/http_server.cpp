@@ -20,6 +20,7 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/write.hpp>
+#include <boost/system/system_error.hpp>
 #include <chrono>
 #include <memory>
 #include <new>
@@ -304,7 +305,13 @@ Result<void> serve_tiles(TileService& service,
         return Error{fmt::format("`{}` can be reached from other machines; --public allows that",
                                  options.address)};
     }
-    Shared shared(service, Workers(options.threads).count());
+    std::optional<Shared> made;
+    try {
+        made.emplace(service, Workers(options.threads).count());
+    } catch (const boost::system::system_error& failed) { // no thread, or no handle for events
+        return Error{fmt::format("cannot start the threads: {}", failed.code().message())};
+    }
+    Shared& shared = *made;
     Listener listener(shared, options.max_connections);
     if (const std::string mistake = listener.open({address, options.port}); !mistake.empty()) {
         return Error{

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "compiler/lint/impl/lints.h"
+#include "compiler/lower/lower.h"
 #include "compiler/program/program.h"
+#include "grammar/base/cancellation.h"
 #include "tests/compiler/compile_text.h"
 
 #include <catch2/catch.hpp>
+
+#include <atomic>
 
 using namespace lsys;
 
@@ -52,4 +57,31 @@ TEST_CASE("a walk over the expressions of a production visits each node") {
     CHECK(count(Opcode::Add) == 1);
     CHECK(count(Opcode::Negate) == 1);
     CHECK(count(Opcode::Literal) == 1);
+}
+
+TEST_CASE("passes over words and expressions end when they are cancelled") {
+    const test::Compiled c = test::compile_text("#n = 2;\n#set turtle cpfg;\n"
+                                                "#w : A(1) { F . F . F } [ F ];\n"
+                                                "#p : A(x) : x > 1 : F(x) [ A(x - 1) ];\n");
+    CAPTURE(c.reports());
+    REQUIRE(c.outcome.program);
+    const Program& program = *c.outcome.program;
+    const ProgramWord& word = program.axioms[0].word;
+    const std::atomic<bool> cancelled{true};
+    const CancellationScope scope(&cancelled);
+    CHECK_THROWS_AS(for_each_symbol(program, word, [](std::size_t, SymbolId) {}),
+                    CompilationCancelled);
+    CHECK_THROWS_AS(
+        for_each_module(program, word, [](std::size_t, std::size_t, const ProgramModule&) {}),
+        CompilationCancelled);
+    CHECK_THROWS_AS(for_each_value(program, {program.arguments[0]}, [](ValueId, const Value&) {}),
+                    CompilationCancelled);
+    CHECK_THROWS_AS(lower(program, c.names, c.sources), CompilationCancelled);
+    Diagnostics diagnostics;
+    const CompileOptions options;
+    const CheckInput input{program, &*c.outcome.bytecode, c.names, c.sources, options};
+    for (const Check check : {check_branches, check_polygons, check_turtle_arguments,
+                              check_foreign_habits, check_module_use, check_branch_depth}) {
+        CHECK_THROWS_AS(check(input, diagnostics), CompilationCancelled);
+    }
 }

@@ -182,6 +182,17 @@ TEST_CASE("labels in the same line share the frame, others get their own") {
                         "    |         -\n");
 }
 
+TEST_CASE("eight labels are shown, and a note counts the others") {
+    const Fixture f("#define w 3;\n#p : A : * : F;\n");
+    Diagnostic d = f.at({f.file, 13, 15});
+    d.labels.assign(9, {{f.file, 8, 9}, "a place"});
+    CHECK(f.frame(d).ends_with("note: and 1 more place\n"));
+    d.labels.resize(10, d.labels.front());
+    CHECK(f.frame(d).ends_with("note: and 2 more places\n"));
+    d.labels.resize(8);
+    CHECK(f.frame(d).find("more place") == std::string::npos);
+}
+
 TEST_CASE("labels may lie in another file") {
     Fixture f("#include \"part.lsys\";\n#define w 4;\n");
     const FileId part = f.sources.add("part.lsys", "#define w 3;\n");

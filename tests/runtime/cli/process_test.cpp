@@ -437,8 +437,8 @@ TEST_CASE("an endless pipe is read up to the limit on memory") {
     const std::vector<std::vector<std::string>> commands{
         {"dump", "--from", folder / "pipe", folder / "a.lsys"},
         {"dump", folder / "pipe", "--dialect", "lsys"},
-        {"forest", folder / "a.lsys", "--placement", "density-map", "--density-map",
-         folder / "pipe", "--check"}};
+        {"forest", folder / "a.lsys", "--placement", "density-map", "--density", "1",
+         "--density-map", folder / "pipe", "--check"}};
     for (const std::vector<std::string>& command : commands) {
         Child child{command, "/dev/null", folder / "err"};
         child.arguments.insert(child.arguments.end(), {"--max-memory", "20M"});

@@ -261,8 +261,10 @@ private:
 /// A grammar whose derivation takes far longer than any test, within the limit of modules.
 const std::string kEndless = "#n = 4000000000;\n#w : A(0);\n#p : A(x) : * : A(x + 1);\n";
 
+/// Asks for a plant, which may take an hour unless `more` has another limit.
 void ask(Editor& editor, int id, Json more = Json::object()) {
     Json params = Editor::in("/p/a.lsys");
+    params["maxSeconds"] = 3600;
     params.update(more);
     editor.send({{"jsonrpc", "2.0"}, {"id", id}, {"method", "lsys/plant"}, {"params", params}});
 }
@@ -309,6 +311,19 @@ TEST_CASE("lsys/plant ends after the wanted time") {
     const Json result = late.response(1001).at("result");
     CHECK(result.at("reason") == "limit");
     CHECK(result.at("message") == "the plant takes longer than 0.2 s");
+}
+
+TEST_CASE("lsys/plant states its limit of time, however short") {
+    Editor editor(Json::object());
+    editor.open("/p/a.lsys", kEndless);
+    Late late(editor.server());
+    for (int id = 1001; id <= 1020; ++id) {
+        ask(editor, id, {{"maxSeconds", 1e-4}});
+        const Json response = late.response(id);
+        CAPTURE(response.dump());
+        REQUIRE(response.contains("result"));
+        CHECK(response.at("result").at("message") == "the plant takes longer than 0.0001 s");
+    }
 }
 
 TEST_CASE("a server that ends cancels its plants") {

@@ -37,6 +37,16 @@ TEST_CASE("the option --version --verbose of lsview adds how it was built") {
     CHECK(parsed<PrintText>({"-v", "--version"}).with_build);
 }
 
+TEST_CASE("lsview has limits of time and output") {
+    const auto limits = parsed<ViewOptions>(
+        {"a.lsys", "--max-time", "2.5", "--max-output", "1M", "--screenshot", "a.png"});
+    CHECK(limits.run.max_seconds == 2.5);
+    CHECK(limits.run.max_output == std::uint64_t{1} << 20U);
+    CHECK(parsed<ViewOptions>({"a.lsys", "--untrusted"}).run.max_seconds == 60.0);
+    CHECK(parsed<UsageError>({"a.lsys", "--max-output", "1M"}).message ==
+          "--max-output belongs to pictures");
+}
+
 TEST_CASE("without a file options of plants, forests and pictures are refused") {
     CHECK(parsed<ViewOptions>({}).file.empty());
     CHECK(parsed<ViewOptions>({"--samples", "1", "--size", "640x480"}).samples == 1);

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <filesystem>
 #include <thread>
 
 using namespace lsys;
@@ -66,6 +67,33 @@ TEST_CASE("messages are those of lsc, and missing files are listed") {
     CHECK(messages_text(outcome.messages, {}, "lsc") ==
           run_lsc({"check", folder / "bad.lsys"}, "").err);
     CHECK(outcome.files == std::vector<std::string>{folder / "bad.lsys", folder / "none.lsys"});
+}
+
+TEST_CASE("--max-time ends a loading in a window and the pictures of a command") {
+    const ScratchFolder folder;
+    write_text(folder / "endless.lsys", kEndless);
+    ViewOptions endless = options_of(folder / "endless.lsys");
+    endless.run.limits.max_bytes = std::uint64_t{1} << 40;
+    endless.run.limits.max_modules = std::uint64_t{1} << 42;
+    endless.run.max_seconds = 0.1;
+    PlantLoader loader([] {});
+    loader.request(endless, SteadyClock::now());
+    const LoadOutcome late = wait_for(loader);
+    CHECK(late.document == nullptr);
+    CHECK_THAT(messages_text(late.messages, {}, "lsview"),
+               Catch::Contains("this takes longer than 0.1 s, the limit of `--max-time`"));
+    endless.file = sample("teach-include");
+    endless.run.max_seconds = 3600;
+    loader.request(endless, SteadyClock::now());
+    CHECK(wait_for(loader).document != nullptr);
+
+    const LscRun pictures =
+        run_lsview({folder / "endless.lsys", "--screenshot", folder / "x.png", "--max-time", "0.1",
+                    "--max-memory", "1T", "--max-modules", "4000000000000"});
+    CHECK(pictures.status == 3);
+    CHECK_THAT(pictures.err,
+               Catch::Contains("the command takes longer than 0.1 s, the limit of `--max-time`"));
+    CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
 }
 
 TEST_CASE("the newest request counts, and a slow earlier one is cancelled") {
