@@ -252,10 +252,12 @@ private:
     [[nodiscard]] std::optional<std::size_t> vertex_behind(const ProgramWord& word,
                                                            std::size_t close) const {
         const std::size_t end = std::size_t{word.first_module} + word.module_count;
-        for (std::size_t i = close + 1; i < end && kind(i) != SymbolKind::PolygonOpen; ++i) {
-            if (program_.symbol(program_.modules[i].symbol).turtle ==
-                    TurtleOperation::PolygonVertex &&
-                !is_decimal_point(word, i)) {
+        for (std::size_t i = close + 1; i < end; ++i) {
+            const Symbol& symbol = program_.symbol(program_.modules[i].symbol);
+            if (symbol.kind == SymbolKind::PolygonOpen) {
+                break;
+            }
+            if (symbol.turtle == TurtleOperation::PolygonVertex && !is_decimal_point(word, i)) {
                 return i;
             }
         }
