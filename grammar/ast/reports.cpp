@@ -165,8 +165,7 @@ void report_stray_comment(Diagnostics& diagnostics,
     const std::uint32_t end = slashes.begin + static_cast<std::uint32_t>(last) + 1;
     diagnostic.fixes.push_back(
         {"write `/* ... */`",
-         {{{slashes.file, slashes.begin, slashes.begin + 2}, "/*"},
-          {{slashes.file, end, end}, " */"}},
+         {{slashes, "/*"}, {{slashes.file, end, end}, " */"}},
          semicolon == std::string_view::npos && !may_be_rolls && !has_modules});
 }
 

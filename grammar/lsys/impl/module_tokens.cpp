@@ -159,11 +159,11 @@ bool is_before_statement(const ParseSession& session) {
 bool report_likely_comment(ParseSession& session) {
     const std::optional<std::uint32_t> slashes = comment_before(session);
     if (slashes && session.wants_reports()) {
-        const std::string_view all = session.scanned.text;
-        std::string_view line = all.substr(*slashes, all.find('\n', *slashes) - *slashes);
+        const SourceSpan span = session.scanned.span(*slashes, *slashes + 2);
+        const std::string_view all = session.context.sources.file(span.file).text();
+        std::string_view line = all.substr(span.begin, all.find('\n', span.begin) - span.begin);
         line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
-        report_stray_comment(session.context.diagnostics, line,
-                             session.scanned.span(*slashes, *slashes + 2), false);
+        report_stray_comment(session.context.diagnostics, line, span, false);
     }
     return slashes.has_value();
 }
