@@ -6,6 +6,7 @@
 #include "grammar/base/paths.h"
 #include "grammar/dialects/dialect.h"
 #include "runtime/base/out_of_memory.h"
+#include "runtime/base/size_text.h"
 #include "runtime/forest/surroundings.h"
 #include "runtime/meshing/texture.h"
 #include "runtime/pipeline/grammar.h"
@@ -888,7 +889,9 @@ Outcome<void> place_forest(const Scene& scene, const Project& project, GrownFore
     if (const Result<double> count = expected_places(options);
         count && count.value() * static_cast<double>(sizeof(Tree)) >
                      static_cast<double>(project.limits.max_bytes)) {
-        return step.end_too_large(Stop::Limit, "the list of trees");
+        return step.fail(Error{fmt::format("the list of about {:.0f} trees does not fit into {}",
+                                           count.value(), byte_size_text(project.limits.max_bytes)),
+                               ErrorKind::Limit});
     }
     Result<Placement> placed = place_trees(options, *grown.terrain);
     if (!placed) {
