@@ -28,8 +28,8 @@ struct Look {
     float picture_length = 1.0F; // of a picture along a branch, in lengths around the branch
 };
 
-/// The name of a picture: `"bark.png"`, or `"bark.png#ratio 2"` with the length of the picture along
-/// a branch, in lengths that keep its proportions.
+/// The name of a picture: `"bark.png"`, or `"bark.png#ratio 2"`, where 1 keeps the proportions of
+/// the picture along a branch and 2 makes it twice as long.
 struct PictureName {
     std::string_view path;
     std::optional<float> ratio;

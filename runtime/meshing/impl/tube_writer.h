@@ -26,7 +26,7 @@ class Roots;
 
 class TubeWriter {
 public:
-    /// `looks`: of the skeleton, may be null. `vertex`: index in `block` of the next vertex to write.
+    /// `looks`: may be null. `vertex`: index in `block` of the next vertex to write.
     TubeWriter(const MeshBlock& block,
                const MeshOptions& options,
                const Flare& flare,
