@@ -238,6 +238,8 @@ class Errors(unittest.TestCase):
         for name in ("Grammar", "Word", "Plant", "Mesh", "Instances"):
             with self.assertRaisesRegex(TypeError, "has no constructor"):
                 getattr(lsys, name).__new__(getattr(lsys, name))
+        with self.assertRaisesRegex(TypeError, r"Forest\(\) missing .* 'scene'"):
+            lsys.Forest.__new__(lsys.Forest)
 
     def test_interrupt_of_compile(self):
         text = "#n = 1; #w : F" + "(1) F [ + F ]" * 3_000_000 + ";"

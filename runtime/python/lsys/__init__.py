@@ -236,7 +236,19 @@ def _matrices(instances):
     return matrices.reshape(-1, 4, 4).transpose(0, 2, 1)
 
 
+_empty_forest = Forest.__new__
 _make_forest = Forest.__init__
+
+
+def _forest_new(cls, scene, *, defines=None, settings=None, generations=None, **options):
+    """Makes the forest whole: no function could use one without a value."""
+    files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
+        os.fspath(path) for path in scene]
+    calls, named = _arguments.split(options)
+    forest = _empty_forest(cls)
+    _make_forest(forest, files, None, named, dict(defines or {}), dict(settings or {}),
+                 generations, **calls)
+    return forest
 
 
 def _forest_init(self, scene, *, defines=None, settings=None, generations=None, **options):
@@ -247,11 +259,7 @@ def _forest_init(self, scene, *, defines=None, settings=None, generations=None, 
     `lsc forest`, with underscores, that replace values of the scene, as in `count=500`,
     `placement="poisson-disk"`, `rho=0`, and the options of all calls.
     """
-    files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
-        os.fspath(path) for path in scene]
-    calls, named = _arguments.split(options)
-    _make_forest(self, files, None, named, dict(defines or {}), dict(settings or {}), generations,
-                 **calls)
+    # __new__ has grown it.
 
 
 def _whole(name, values, most):
@@ -286,7 +294,7 @@ def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, spec
     files = [os.fspath(grammars)] if isinstance(grammars, (str, os.PathLike)) else [
         os.fspath(path) for path in grammars]
     calls, named = _arguments.split(options)
-    forest = Forest.__new__(Forest)
+    forest = _empty_forest(Forest)
     _make_forest(forest, files, places, named, dict(defines or {}), dict(settings or {}),
                  generations, **calls)
     return forest
@@ -312,6 +320,8 @@ Plant.__repr__ = _plant_repr
 Word.__repr__ = _word_repr
 Grammar.__repr__ = _grammar_repr
 Mesh.__repr__ = _mesh_repr
+_forest_new.__qualname__ = "Forest"  # in messages about its arguments
+Forest.__new__ = staticmethod(_forest_new)
 Forest.__init__ = _forest_init
 Forest.from_places = staticmethod(_from_places)
 Forest.instances = property(_instances)
