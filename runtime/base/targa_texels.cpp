@@ -40,18 +40,18 @@ public:
         map_bits_ = byte(7);
         columns = half(12);
         rows = half(14);
-        pixel_bytes_ = byte(16) / 8U;
         const unsigned bits = byte(16);
+        pixel_bytes_ = (bits + 7U) / 8U;
         const unsigned description = byte(17);
         begins_at_top_ = (description & 0x20U) != 0;
         begins_at_right_ = (description & 0x10U) != 0;
         has_opacity_ = (description & 0x0FU) != 0;
         const bool is_known = kind_ == kMapped ? has_map == 1 && bits == 8 && is_colour(map_bits_)
                               : kind_ == kColours ? is_colour(bits)
-                                                  : kind_ == kGrey && bits == 8;
+                                                  : kind_ == kGrey && (bits == 8 || bits == 16);
         at_ = kHeaderBytes + byte(0);
         map_ = at_;
-        at_ += std::size_t{has_map} * colour_count_ * ((map_bits_ + 7U) / 8U);
+        at_ += std::size_t{has_map} * colour_count_ * map_bytes();
         return is_known && has_map <= 1 && description < 0x40U && columns != 0 && rows != 0;
     }
 
@@ -81,7 +81,10 @@ public:
     std::uint32_t rows = 0;
 
 private:
-    static bool is_colour(unsigned bits) { return bits == 24 || bits == 32; }
+    static bool is_colour(unsigned bits) {
+        return bits == 15 || bits == 16 || bits == 24 || bits == 32;
+    }
+    [[nodiscard]] std::size_t map_bytes() const { return (map_bits_ + 7U) / 8U; } // per colour
 
     [[nodiscard]] std::uint8_t byte(std::size_t at) const {
         return static_cast<std::uint8_t>(bytes_[at]);
@@ -110,29 +113,43 @@ private:
         return true;
     }
 
-    /// Colours are stored as blue, green, red and perhaps opacity.
     bool read_pixel(std::size_t at, std::uint8_t* texel) {
-        std::size_t bits = pixel_bytes_ * 8;
         if (kind_ == kGrey) {
             std::fill_n(texel, 3, byte(at));
+            texel[3] = pixel_bytes_ == 2 && has_opacity_ ? byte(at + 1) : 255;
             return true;
         }
         if (kind_ == kMapped) {
             const std::uint32_t index = byte(at);
-            bits = map_bits_;
-            at = map_ + (index - first_colour_) * (bits / 8);
+            at = map_ + (index - first_colour_) * map_bytes();
             if (index < first_colour_ || index - first_colour_ >= colour_count_ ||
-                at + bits / 8 > bytes_.size()) {
+                at + map_bytes() > bytes_.size()) {
                 return false;
             }
+        }
+        read_colour(at, kind_ == kMapped ? map_bytes() : pixel_bytes_, texel);
+        return true;
+    }
+
+    /// Colours are stored as blue, green, red and perhaps opacity: in bytes, or in 5 bits each and
+    /// 1 bit of opacity.
+    void read_colour(std::size_t at, std::size_t size, std::uint8_t* texel) {
+        if (size == 2) {
+            constexpr std::uint32_t kMax = 31;
+            const std::uint32_t colour = half(at);
+            for (std::uint32_t c = 0; c < 3; ++c) {
+                const std::uint32_t value = colour >> (10 - 5 * c) & kMax;
+                texel[c] = static_cast<std::uint8_t>((value * 255 + kMax / 2) / kMax);
+            }
+            texel[3] = has_opacity_ && (colour & 0x8000U) == 0 ? 0 : 255;
+            return;
         }
         for (std::size_t c = 0; c < 3; ++c) {
             texel[c] = byte(at + 2 - c);
         }
-        if (bits == 32 && has_opacity_) {
+        if (size == 4 && has_opacity_) {
             texel[3] = byte(at + 3);
         }
-        return true;
     }
 
     std::string_view bytes_;

@@ -64,6 +64,8 @@ Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
             return read.error();
         }
         texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
+    } else if (!bytes.starts_with("\x89PNG")) {
+        return Error{"it is no PNG, JPEG, SGI or TGA picture"};
     } else {
         Result<PngSamples> read =
             read_png_samples(bytes, {PngForm::Rgba, kMaxTexels, max_bytes, 0, "picture"});

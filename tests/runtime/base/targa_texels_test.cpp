@@ -70,6 +70,13 @@ TEST_CASE("a TGA picture is read by rows from the top") {
     CHECK(targa_texels(targa_header({2, 1, 1, 32, 0x20}) + "\x01\x02\x03\x04") ==
           std::vector<int>{3, 2, 1, 255}); // without opacities
     CHECK(targa_texels(targa_header({3, 1, 1, 8}) + "\x07") == std::vector<int>{7, 7, 7, 255});
+    CHECK(targa_texels(targa_header({3, 1, 1, 16, 0x28}) + "\x07\x09") ==
+          std::vector<int>{7, 7, 7, 9});
+    // 0 11111 10000 00001: red, green, blue of 5 bits; the opacity of the first is not stored.
+    CHECK(targa_texels(targa_header({2, 1, 1, 15}) + "\x01\x7e") ==
+          std::vector<int>{255, 132, 8, 255});
+    CHECK(targa_texels(targa_header({2, 2, 1, 16, 0x21}) + "\x01\x7e\x01\xfe") ==
+          std::vector<int>{255, 132, 8, 0, 255, 132, 8, 255});
     CHECK(targa_texels(encoded_targa()) ==
           std::vector<int>{3, 2, 1, 255, 3, 2, 1, 255, 6, 5, 4, 255});
 }
