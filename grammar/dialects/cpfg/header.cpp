@@ -111,7 +111,9 @@ std::string CpfgWriter::key_of(const CpfgProduction& production) {
 
 void CpfgWriter::check_module(CpfgModule& module) {
     const std::string& name = module.name;
-    if (name == "$") {
+    if (name.find('`') != std::string::npos) { // .lsys writes other names between back quotes
+        session_.report_unsupported(module.span, "a back quote in the name of a module");
+    } else if (name == "$") {
         session_.report_unsupported(module.span, "`$` ends a sub-L-system");
     } else if (name == "?") {
         session_.report_unsupported(module.span,
