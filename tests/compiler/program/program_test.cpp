@@ -61,7 +61,7 @@ TEST_CASE("a walk over the expressions of a production visits each node") {
 
 TEST_CASE("passes over words and expressions end when they are cancelled") {
     const test::Compiled c = test::compile_text("#n = 2;\n#set turtle cpfg;\n"
-                                                "#w : A(1) { F . F . F } [ F ];\n"
+                                                "#w : A(1) +(30) { F . F . F } [ F ];\n"
                                                 "#p : A(x) : x > 1 : F(x) [ A(x - 1) ];\n");
     CAPTURE(c.reports());
     REQUIRE(c.outcome.program);

@@ -105,7 +105,7 @@ TEST_CASE("a damaged TGA picture is refused") {
             CHECK_NOTHROW(read_targa_texels(damaged, kTargaPixels, kTargaBytes));
         }
     }
-    CHECK_FALSE(is_targa(targa_header({2, 1, 1, 16})));
+    CHECK_FALSE(is_targa(targa_header({2, 1, 1, 12})));
     CHECK_FALSE(is_targa(targa_header({5, 1, 1, 24})));
     CHECK_FALSE(is_targa("\x89PNG\r\n\x1A\nabcdefghijklmnop"));
     CHECK(targa_refusal(targa_header({2, 2000, 2000})) ==
