@@ -80,8 +80,8 @@ TEST_CASE("passes over words and expressions end when they are cancelled") {
     Diagnostics diagnostics;
     const CompileOptions options;
     const CheckInput input{program, &*c.outcome.bytecode, c.names, c.sources, options};
-    for (const Check check : {check_branches, check_polygons, check_turtle_arguments,
-                              check_foreign_habits, check_module_use, check_branch_depth}) {
+    for (const Check check :
+         {check_branches, check_polygons, check_foreign_habits, check_module_use}) {
         CHECK_THROWS_AS(check(input, diagnostics), CompilationCancelled);
     }
 }
