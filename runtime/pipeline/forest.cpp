@@ -401,8 +401,8 @@ bool has_hits(const ForestSpecies& species) {
 }
 
 /// If the grammar has `#set height`, scales the heroes so that tree 0 of the last stage has this
-/// height at scale 1, and sets `scale` to the factor; else scales them by `#set scale`. Returns false if the plants are flat although
-/// the grammar or `wants_height` requires a height.
+/// height at scale 1, and sets `scale` to the factor; else scales them by `#set scale`. Returns
+/// false if the plants are flat although the grammar or `wants_height` requires a height.
 bool size_heroes(const Settings& settings,
                  bool wants_height,
                  ForestSpecies& species,
