@@ -336,6 +336,9 @@ void TableReader::finish() {
                                           : fmt::format("it belongs to {}", place->table));
         } else if (found.key == "profile" || found.key == "turtle") {
             error.help.emplace_back("a grammar names its turtle itself: `#set turtle abop;`");
+        } else if (found.key == "weight" &&
+                   std::find(known_.begin(), known_.end(), "share") != known_.end()) {
+            error.help.emplace_back("the weight of a species among the others is its `share`");
         } else if (const auto nearest = nearest_name(found.key, known_)) {
             error.help.push_back(fmt::format("did you mean `{}`?", *nearest));
             if (!has(*nearest)) {
