@@ -2,9 +2,11 @@
 #include "compiler/bytecode/module_file.h"
 #include "runtime/cli/commands.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/named_files.h"
 #include "runtime/pipeline/portable_files.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/program/run_files.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +24,7 @@ ExitStatus run_command(const CompileCommand& command, const Console& console) {
         return ExitStatus::Failure;
     }
     Bytecode& bytecode = grammar.bytecode;
+    note_read(console.io().files, named_files(bytecode, command.file));
     if (command.grammar.generations) {
         bytecode.generations = command.grammar.generations;
     }

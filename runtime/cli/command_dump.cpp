@@ -12,9 +12,11 @@
 #include "runtime/cli/progress.h"
 #include "runtime/meshing/detail_levels.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/named_files.h"
 #include "runtime/pipeline/plant.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/program/run_files.h"
 #include "runtime/scene/scene.h"
 
 #include <fmt/format.h>
@@ -299,6 +301,7 @@ ExitStatus run_command(const DumpCommand& command, const Console& console) {
     if (status != ExitStatus::Ok) {
         return status;
     }
+    note_read(console.io().files, named_files(grammar.bytecode, command.file));
     switch (command.stage) {
     case DumpStage::Program:
         if (!grammar.program) {

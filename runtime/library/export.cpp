@@ -8,6 +8,7 @@
 #include "runtime/output/file_option_parsers.h"
 #include "runtime/output/plant_files.h"
 #include "runtime/output/presets.h"
+#include "runtime/pipeline/named_files.h"
 
 #include <fmt/format.h>
 
@@ -105,8 +106,10 @@ Outcome<std::vector<std::string>> write_plant_to(const Plant& plant,
         return conflict.empty() ? write_grown(file_options, *format, plant.data(), context)
                                 : report_error(Error{conflict}, context.console);
     };
-    return call.run<std::vector<std::string>>([&] { return write_files(call, receive, write); },
-                                              [](std::vector<std::string> paths) { return paths; });
+    const std::vector<std::string> inputs = named_files(read.grammar.bytecode, read.file);
+    return call.run<std::vector<std::string>>(
+        [&] { return write_files(call, receive, inputs, write); },
+        [](std::vector<std::string> paths) { return paths; });
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "runtime/library/impl/file_call.h"
 
 #include "runtime/library/impl/call.h"
+#include "runtime/program/run_files.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@ namespace lsys::v0 {
 ::lsys::Outcome<std::vector<std::string>>
 write_files(Call& call,
             const FileReceiver* receive,
+            const std::vector<std::string>& inputs,
             const std::function<ExitStatus(const OutputContext& context)>& write) {
     std::istringstream in; // the console uses no stream of the process
     std::ostringstream out;
@@ -22,6 +24,9 @@ write_files(Call& call,
     options.levels = call.project().levels;
     Io io{in, out, out, false, call.cancel_flag(), "lsys"};
     io.output_budget = &call.output_budget();
+    RunFiles files;
+    note_read(&files, inputs);
+    io.files = &files;
     const Console console(io, options, messages);
     std::vector<std::string> paths;
     ::lsys::FileReceiver receiver;

@@ -265,8 +265,9 @@ Outcome<std::vector<std::string>> write_forest_to(const Forest& forest,
                    ? write_grown_forest(parsed.value(), target.value(), forest.data(), context)
                    : report_error(Error{conflict}, context.console);
     };
-    return call.run<std::vector<std::string>>([&] { return write_files(call, receive, write); },
-                                              [](std::vector<std::string> paths) { return paths; });
+    return call.run<std::vector<std::string>>(
+        [&] { return write_files(call, receive, read.files, write); },
+        [](std::vector<std::string> paths) { return paths; });
 }
 
 /// The transform of an instance as a matrix of 16 floats, column by column.
@@ -401,7 +402,7 @@ Outcome<Mesh> make_ground(const Forest& forest, const Project& project) {
     const auto write = [&](const OutputContext& context) {
         return ::lsys::make_ground({}, forest.data().forest.grown, context, ground);
     };
-    return call.run<Mesh>([&] { return write_files(call, nullptr, write); },
+    return call.run<Mesh>([&] { return write_files(call, nullptr, {}, write); },
                           [&](const std::vector<std::string>& /*none*/) {
                               return public_mesh(
                                   std::make_shared<const ::lsys::Mesh>(std::move(*ground)),

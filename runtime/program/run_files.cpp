@@ -25,6 +25,14 @@ void RunFiles::note_read(const std::string& path) {
     read_.insert(std::move(whole));
 }
 
+void note_read(RunFiles* files, const std::vector<std::string>& paths) {
+    if (files != nullptr) {
+        for (const std::string& path : paths) {
+            files->note_read(path);
+        }
+    }
+}
+
 bool RunFiles::is_read(const std::string& path) {
     const std::string whole = resolved(path);
     const std::lock_guard<std::mutex> lock(mutex_);

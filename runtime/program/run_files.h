@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lsys {
 
@@ -29,5 +30,8 @@ private:
     std::set<std::string> read_;
     std::set<std::string> written_;
 };
+
+/// Records that the run reads these files, whether or not it does; null: nowhere.
+void note_read(RunFiles* files, const std::vector<std::string>& paths);
 
 } // namespace lsys

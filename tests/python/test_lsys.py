@@ -103,6 +103,21 @@ class Equality(unittest.TestCase):
                 self.assertEqual(one.read()[80:], other.read()[80:])
             self.assertEqual(sorted(os.listdir(folder)), ["a.stl", "b.stl"])
 
+    def test_no_file_replaces_an_input(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = os.path.join(folder, "m.obj")
+            with open(mesh, "w") as file:
+                file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            path = os.path.join(folder, "a.lsys")
+            with open(path, "w") as file:
+                file.write('#object L "m.obj";\n#n = 1;\n#w : F L;\n')
+            plant = lsys.compile(path).grow()
+            for name in ("m.obj", "a.lsys"):
+                with self.assertRaisesRegex(lsys.LsysError, "it is an input of this command"):
+                    plant.save(os.path.join(folder, name), format="obj")
+            with open(mesh) as file:
+                self.assertEqual(file.readline(), "v 0 0 0\n")
+
 
 class Views(unittest.TestCase):
     """Arrays are views: no data is copied, and views keep their owner alive."""

@@ -466,6 +466,7 @@ TEST_CASE("lsview ends with a message if it cannot show the file") {
     };
     const ScratchFolder folder;
     write_text(folder / "bad.lsys", "#w : F(;\n");
+    write_text(folder / "own.lsys", "#n = 1;\n#w : F;\n");
     const std::vector<Mistake> mistakes = {
         {{"--screenshot", "-"}, 2, "--screenshot needs a FILE"},
         {{"none.lsys", "--screenshot", "-"}, 2, "none.lsys"},
@@ -493,6 +494,10 @@ TEST_CASE("lsview ends with a message if it cannot show the file") {
         {{scene("meadow"), "--screenshot", "-", "--gravity", "9.81"}, 2, "not a forest"},
         {{scene("meadow"), sample("abop-1-24a"), "--screenshot", "-"}, 2, "stands alone"},
         {{folder / "none.toml", "--screenshot", "-"}, 2, "none.toml"},
+        {{folder / "own.lsys", "--size", "32x24", "--screenshot", folder / "b.png", "--stats",
+          folder / "own.lsys"},
+         2,
+         "it is an input of this command"},
         {{scene("meadow"), "--screenshot", "-", "--samples", "2"}, 2, "neither 1 nor 4"},
         {{sample("abop-1-24a"), "--screenshto", "-"}, 2, "did you mean `--screenshot`?"},
     };

@@ -8,6 +8,7 @@
 #include "runtime/program/host.h"
 #include "runtime/program/limited_run.h"
 #include "runtime/program/process.h"
+#include "runtime/program/run_files.h"
 #include "viewer/app/forest_document.h"
 #include "viewer/app/forest_pictures.h"
 #include "viewer/app/options.h"
@@ -140,8 +141,11 @@ struct Dispatch {
     }
     ExitStatus operator()(const ViewOptions& options) const {
         if (!options.screenshot.empty()) {
+            RunFiles files;
+            Io recording = io;
+            recording.files = &files;
             return run_within_limits(
-                options.run, options.messages, io,
+                options.run, options.messages, recording,
                 [&](const Console& console) { return run_pictures(options, console); });
         }
         const Console console(io, options.messages);

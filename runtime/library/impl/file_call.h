@@ -17,11 +17,12 @@ namespace lsys::v0 {
 
 class Call;
 
-/// Runs `write` with a context of the call. If `receive` is null, writes files to disk. Returns the
-/// paths of the files.
+/// Runs `write` with a context of the call. If `receive` is null, writes files to disk, but none of
+/// `inputs`. Returns the paths of the files.
 [[nodiscard]] ::lsys::Outcome<std::vector<std::string>>
 write_files(Call& call,
             const FileReceiver* receive,
+            const std::vector<std::string>& inputs,
             const std::function<ExitStatus(const OutputContext& context)>& write);
 
 } // namespace lsys::v0

@@ -86,6 +86,8 @@ TEST_CASE("no output replaces an input or another output") {
           {"dump", grammar, "-o",
            folder / "." + "/../" + folder.path().filename().string() + "/a.lsys"},
           {"compile", grammar, "-o", grammar},
+          {"compile", grammar, "-o", picture},
+          {"dump", grammar, "-o", picture},
           {"export", grammar, "-o", grammar, "--format", "stl"},
           {"export", grammar, "-o", folder / "a.obj"}}) {
         INFO(options[0] << ' ' << options[3]);
