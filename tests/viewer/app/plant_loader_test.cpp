@@ -69,7 +69,7 @@ TEST_CASE("messages are those of lsc, and missing files are listed") {
     CHECK(outcome.files == std::vector<std::string>{folder / "bad.lsys", folder / "none.lsys"});
 }
 
-TEST_CASE("--max-time ends a loading in a window and the pictures of a command") {
+TEST_CASE("the limit --max-time ends a loading in a window and the pictures of a command") {
     const ScratchFolder folder;
     write_text(folder / "endless.lsys", kEndless);
     ViewOptions endless = options_of(folder / "endless.lsys");
