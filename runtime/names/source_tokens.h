@@ -39,7 +39,7 @@ struct SourceToken {
 [[nodiscard]] std::vector<SourceToken>
 source_tokens(const NameIndex& index, const std::string& path, std::string_view text);
 
-/// A file of a grammar, to be drawn.
+/// A file of a grammar, to be shown with coloured tokens.
 struct ColouredFile {
     std::string path; // as the grammar names it, relative to the same folder as the grammar
     std::vector<SourceToken> tokens;

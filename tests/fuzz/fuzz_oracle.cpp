@@ -122,7 +122,7 @@ std::string text_of(const lsys::Bytecode& bytecode, const lsys::Word& word) {
     return text;
 }
 
-/// The end of a derivation: its word, or the place of its error.
+/// The place of an error as text.
 std::string place_text(std::uint64_t generation, std::uint64_t position) {
     return "error at " + std::to_string(generation) + ":" + std::to_string(position);
 }
@@ -134,7 +134,7 @@ void compare(const Case& test_case, const lsys::Bytecode& bytecode, const Deriva
     options.threads = 1;
     lsys::Derivation derivation(bytecode, options);
     const std::optional<lsys::Stop> stop = derivation.derive();
-    const std::string found =
+    const std::string found = // the word, or the place of the error
         stop ? place_text(derivation.error().generation, derivation.error().position)
              : text_of(bytecode, derivation.word());
     std::string wanted;

@@ -17,7 +17,7 @@ function below(folder, extension) {
       const path = join(folder, name);
       const status = statSync(path);
       if (status.isDirectory()) return below(path, extension);
-      // A golden test has a link to a device without an end.
+      // A golden test has a symbolic link to an endless device.
       return name.endsWith(extension) && status.isFile() ? [path] : [];
     });
 }

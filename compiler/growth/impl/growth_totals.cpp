@@ -11,7 +11,7 @@ namespace lsys::analysis {
 
 namespace {
 
-constexpr std::uint64_t kMaxWork = 5'000'000; // max terms read, in all generations
+constexpr std::uint64_t kMaxWork = 5'000'000; // max number of ClassTerms summed in all generations
 constexpr std::size_t kMaxClasses = 100'000;
 
 struct Bounds {

@@ -125,7 +125,8 @@ std::optional<ContourFile> read_contour(std::string_view text) {
         while (!text.empty()) {
             line = first_line(text);
             if (take(line, "points:")) {
-                count = first_count(line, kMaxPoints); // `points: 5 9`: 5 lines with 9 points
+                // `points: 5 9`: 5 lines with a point each, 9 points with their repetitions.
+                count = first_count(line, kMaxPoints);
             } else if (take(line, "type:")) {
                 line = trimmed(line, kBlanks);
                 file.closed = line.starts_with('c');

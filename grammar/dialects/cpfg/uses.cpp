@@ -80,7 +80,7 @@ void CpfgWriter::read_view_file() {
     const FileId view =
         files.has_view ? context_.sources.add(files.view_path, files.view) : kNoFile;
     looks_ = read_looks(view, files.view, uses);
-    map_surfaces(commands);
+    find_whole_surfaces(commands);
     materials_ =
         material_statements(files.colours, uses, looks_.first_colour.value_or(kFirstCpfgColour));
     if (!materials_.empty() && !looks_.first_colour) {
@@ -100,7 +100,7 @@ void CpfgWriter::read_view_file() {
     }
 }
 
-void CpfgWriter::map_surfaces(const CpfgUses& commands) {
+void CpfgWriter::find_whole_surfaces(const CpfgUses& commands) {
     const auto is_whole = [&](std::size_t number) {
         return number >= 1 && number <= looks_.textures.size() &&
                looks_.textures[number - 1].is_whole;

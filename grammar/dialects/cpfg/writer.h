@@ -68,9 +68,9 @@ private:
     /// Reads the view file, and the colours beside it.
     void read_view_file();
     void write_organs();
-    /// Finds the surfaces that have one picture for all their patches, once the textures are read.
-    /// `commands`: the textures that the turtle sets.
-    void map_surfaces(const CpfgUses& commands);
+    /// Sets `is_whole` of the surfaces on which one picture is stretched over all patches. Call it
+    /// when the textures are read. `commands`: the textures that the turtle sets.
+    void find_whole_surfaces(const CpfgUses& commands);
     /// Looks for the commands of the model whose effect depends on its view file.
     [[nodiscard]] CpfgUses find_uses() const;
     /// Writes functions, arrays and the variables of `Start:`, which settings may read.

@@ -87,7 +87,7 @@ private:
 
     [[nodiscard]] Word lower_word(const std::vector<HoudiniModule>& word,
                                   const HoudiniScope& scope);
-    /// Finds which local values from index `first` on a word reads, and gives them names.
+    /// Finds the local values, from index `first` on, that a word reads, and gives them names.
     void name_locals(const Word& word, std::size_t first, std::set<std::string> taken);
     void write_word(const Word& word);
     void write_module(const Lowered& lowered_module);

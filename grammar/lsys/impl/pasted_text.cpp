@@ -650,7 +650,7 @@ std::optional<Meaning> header_meaning(std::string_view line) {
 }
 
 /// Recognises lines without an equivalent in .lsys.
-std::optional<Meaning> line_without_meaning(std::string_view line) {
+std::optional<Meaning> line_without_equivalent(std::string_view line) {
     const std::string lower = lowered(line);
     for (const std::string_view word :
          {"lsystem:", "endlsystem", "production:", "interpretation:", "homomorphism",
@@ -702,10 +702,10 @@ void repair_foreign_lines(DraftText& draft) {
             has_statement = has_statement || is_statement_start(line.text, 0);
             continue;
         }
-        // Lines without a meaning stay: the scanner reports statements without their `#`.
+        // A line that nothing below recognises stays; the scanner reports statements without `#`.
         std::optional<Meaning> meaning = header_meaning(line.text);
         if (!meaning) {
-            meaning = line_without_meaning(line.text);
+            meaning = line_without_equivalent(line.text);
         }
         if (!meaning) {
             if (const auto production = productions_for(line.text, names)) {
