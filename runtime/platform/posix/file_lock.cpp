@@ -46,6 +46,10 @@ void remove_unlocked_file(const std::string& path, WithoutLocks without_locks) {
         ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat opened {};
     struct stat named {};
+    // If there is no file, another process may make one of this name right now.
+    if (!file.is_open() && errno == ENOENT) {
+        return;
+    }
     if (!file.is_open() || ::fstat(file.descriptor(), &opened) != 0) {
         if (without_locks == WithoutLocks::Remove) {
             ::unlink(path.c_str());
