@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/base/jpeg_texels.h"
 
-#include "runtime/base/out_of_memory.h"
-#include "runtime/base/size_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,7 +83,7 @@ bool is_jpeg(std::string_view bytes) {
     return bytes.starts_with("\xFF\xD8\xFF");
 }
 
-Result<JpegTexels>
+Result<PictureTexels>
 read_jpeg_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes) {
     const auto damaged = [] {
         const char* const reason = stbi_failure_reason();
@@ -107,16 +104,11 @@ read_jpeg_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t
     if (stbi_info_from_memory(data, size, &columns, &rows, &channels) == 0) {
         return damaged();
     }
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
-    if (pixels > max_pixels) {
-        return Error{
-            fmt::format("a picture of {} by {} pixels; the most is {}", columns, rows, max_pixels)};
-    }
-    if (pixels * kBytesPerPixel > max_bytes) {
-        return memory_error(fmt::format("a picture of {} by {} pixels ({})", columns, rows,
-                                        byte_size_text(pixels * kBytesPerPixel)),
-                            max_bytes);
+    if (const Result<void> fits = check_picture_size(static_cast<std::uint32_t>(columns),
+                                                     static_cast<std::uint32_t>(rows),
+                                                     kBytesPerPixel, max_pixels, max_bytes);
+        !fits) {
+        return fits.error();
     }
     constexpr int kChannels = 4;
     stbi_uc* const texels =
@@ -124,17 +116,12 @@ read_jpeg_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t
     if (texels == nullptr) {
         return damaged();
     }
-    JpegTexels read{static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows), {}};
-    const bool fits = catch_out_of_memory(
-        [&] {
-            read.bytes.assign(texels, texels + pixels * kChannels);
-            return true;
-        },
-        [] { return false; });
-    stbi_image_free(texels);
-    if (!fits) {
-        return Error{"there is no memory to read a JPEG"};
+    Result<PictureTexels> read = white_texels(static_cast<std::uint32_t>(columns),
+                                              static_cast<std::uint32_t>(rows), "a JPEG");
+    if (read) {
+        std::copy_n(texels, read.value().bytes.size(), read.value().bytes.begin());
     }
+    stbi_image_free(texels);
     return read;
 }
 

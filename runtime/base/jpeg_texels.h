@@ -4,24 +4,17 @@
 #pragma once
 
 #include "grammar/base/result.h"
+#include "runtime/base/picture_texels.h"
 
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 namespace lsys {
 
-/// Opaque RGBA texels by rows from the top.
-struct JpegTexels {
-    std::uint32_t columns = 0;
-    std::uint32_t rows = 0;
-    std::vector<std::uint8_t> bytes;
-};
-
 [[nodiscard]] bool is_jpeg(std::string_view bytes);
-/// Reads a baseline or progressive JPEG. A picture of more than `max_pixels`, or one that needs
+/// Reads a baseline or progressive JPEG, which is opaque. A picture of more than `max_pixels`, or one that needs
 /// more than `max_bytes` while it is decoded, is refused before memory is allocated.
-[[nodiscard]] Result<JpegTexels>
+[[nodiscard]] Result<PictureTexels>
 read_jpeg_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes);
 
 } // namespace lsys

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/base/sgi_texels.h"
 
-#include "runtime/base/out_of_memory.h"
-#include "runtime/base/size_text.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -110,32 +105,21 @@ bool is_sgi(std::string_view bytes) {
     return bytes.starts_with("\x01\xDA");
 }
 
-Result<SgiTexels>
+Result<PictureTexels>
 read_sgi_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes) {
     SgiFile file(bytes);
     if (!file.read_header()) {
         return Error{"the SGI picture cannot be read: its header is of no picture in colours or "
                      "greys"};
     }
-    const std::uint64_t pixels = std::uint64_t{file.columns} * file.rows;
-    if (pixels > max_pixels) {
-        return Error{fmt::format("a picture of {} by {} pixels; the most is {}", file.columns,
-                                 file.rows, max_pixels)};
+    if (const Result<void> fits =
+            check_picture_size(file.columns, file.rows, kChannels, max_pixels, max_bytes);
+        !fits) {
+        return fits.error();
     }
-    if (pixels * kChannels > max_bytes) {
-        return memory_error(fmt::format("a picture of {} by {} pixels ({})", file.columns,
-                                        file.rows, byte_size_text(pixels * kChannels)),
-                            max_bytes);
-    }
-    SgiTexels read{file.columns, file.rows, {}};
-    const bool fits = catch_out_of_memory(
-        [&] {
-            read.bytes.assign(pixels * kChannels, 255);
-            return true;
-        },
-        [] { return false; });
-    if (!fits) {
-        return Error{"there is no memory to read an SGI picture"};
+    Result<PictureTexels> read = white_texels(file.columns, file.rows, "an SGI picture");
+    if (!read) {
+        return read;
     }
     // Channel of the file for each channel of a texel, by number of channels of the file - 1. One
     // channel: grey. Two: grey and opacity.
@@ -143,7 +127,7 @@ read_sgi_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t 
         {{0, 0, 0, 4}, {0, 0, 0, 1}, {0, 1, 2, 4}, {0, 1, 2, 3}}}; // 4: opaque
     for (std::uint32_t row = 0; row < file.rows; ++row) {
         std::uint8_t* const to =
-            read.bytes.data() + std::size_t{file.rows - 1 - row} * file.columns * kChannels;
+            read.value().bytes.data() + std::size_t{file.rows - 1 - row} * file.columns * kChannels;
         for (std::size_t c = 0; c < kChannels; ++c) {
             const std::uint32_t source = kSources[file.channels - 1][c];
             if (source < kChannels && !file.read_row(row, source, to + c)) {

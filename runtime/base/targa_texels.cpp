@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/base/targa_texels.h"
 
-#include "runtime/base/out_of_memory.h"
-#include "runtime/base/size_text.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -172,34 +167,23 @@ bool is_targa(std::string_view bytes) {
     return TargaFile(bytes).read_header();
 }
 
-Result<TargaTexels>
+Result<PictureTexels>
 read_targa_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes) {
     TargaFile file(bytes);
     if (!file.read_header()) {
         return Error{"the TGA picture cannot be read: its header is of no picture in colours or "
                      "greys"};
     }
-    const std::uint64_t pixels = std::uint64_t{file.columns} * file.rows;
-    if (pixels > max_pixels) {
-        return Error{fmt::format("a picture of {} by {} pixels; the most is {}", file.columns,
-                                 file.rows, max_pixels)};
+    if (const Result<void> fits =
+            check_picture_size(file.columns, file.rows, kChannels, max_pixels, max_bytes);
+        !fits) {
+        return fits.error();
     }
-    if (pixels * kChannels > max_bytes) {
-        return memory_error(fmt::format("a picture of {} by {} pixels ({})", file.columns,
-                                        file.rows, byte_size_text(pixels * kChannels)),
-                            max_bytes);
+    Result<PictureTexels> read = white_texels(file.columns, file.rows, "a TGA picture");
+    if (!read) {
+        return read;
     }
-    TargaTexels read{file.columns, file.rows, {}};
-    const bool fits = catch_out_of_memory(
-        [&] {
-            read.bytes.assign(pixels * kChannels, 255);
-            return true;
-        },
-        [] { return false; });
-    if (!fits) {
-        return Error{"there is no memory to read a TGA picture"};
-    }
-    if (!file.read_pixels(read.bytes.data())) {
+    if (!file.read_pixels(read.value().bytes.data())) {
         return Error{"the TGA picture cannot be read: it is damaged or cut off"};
     }
     return read;

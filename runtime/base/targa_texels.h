@@ -3,28 +3,21 @@
 #pragma once
 
 #include "grammar/base/result.h"
+#include "runtime/base/picture_texels.h"
 
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 namespace lsys {
-
-/// RGBA texels by rows from the top; opaque unless the file has opacities.
-struct TargaTexels {
-    std::uint32_t columns = 0;
-    std::uint32_t rows = 0;
-    std::vector<std::uint8_t> bytes;
-};
 
 /// Whether the header is one of a TGA file that is read. The format has no mark at its beginning,
 /// so other formats are tried first.
 [[nodiscard]] bool is_targa(std::string_view bytes);
 /// Reads a picture of 15, 16, 24 or 32 bits per pixel, of 8 bits of grey, perhaps with 8 bits of
-/// opacity, or of 8 bits with a colour map, with or without run-length encoding. A picture of more
-/// than `max_pixels`, or whose texels need more than `max_bytes`, is refused before memory is
-/// allocated.
-[[nodiscard]] Result<TargaTexels>
+/// opacity, or of 8 bits with a colour map, with or without run-length encoding. It is opaque unless
+/// the file has opacities. A picture of more than `max_pixels`, or whose texels need more than
+/// `max_bytes`, is refused before memory is allocated.
+[[nodiscard]] Result<PictureTexels>
 read_targa_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes);
 
 } // namespace lsys

@@ -46,20 +46,12 @@ Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
         return Error{fmt::format("it is a {}; only PNG, JPEG, SGI and TGA are read", format)};
     }
     Texture texture;
-    if (is_jpeg(bytes)) {
-        Result<JpegTexels> read = read_jpeg_texels(bytes, kMaxTexels, max_bytes);
-        if (!read) {
-            return read.error();
-        }
-        texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
-    } else if (is_sgi(bytes)) {
-        Result<SgiTexels> read = read_sgi_texels(bytes, kMaxTexels, max_bytes);
-        if (!read) {
-            return read.error();
-        }
-        texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
-    } else if (is_targa(bytes)) {
-        Result<TargaTexels> read = read_targa_texels(bytes, kMaxTexels, max_bytes);
+    const auto read_texels = is_jpeg(bytes)    ? read_jpeg_texels
+                             : is_sgi(bytes)   ? read_sgi_texels
+                             : is_targa(bytes) ? read_targa_texels
+                                               : nullptr;
+    if (read_texels != nullptr) {
+        Result<PictureTexels> read = read_texels(bytes, kMaxTexels, max_bytes);
         if (!read) {
             return read.error();
         }

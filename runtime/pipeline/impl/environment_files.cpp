@@ -62,11 +62,11 @@ Result<EnvironmentPicture> read_png_greys(std::string_view bytes, std::uint64_t 
 
 Result<EnvironmentPicture> read_jpeg_greys(std::string_view bytes, std::uint64_t max_bytes) {
     constexpr double kWhite = 255.0;
-    const Result<JpegTexels> read = read_jpeg_texels(bytes, kMaxMapPixels, max_bytes);
+    const Result<PictureTexels> read = read_jpeg_texels(bytes, kMaxMapPixels, max_bytes);
     if (!read) {
         return read.error();
     }
-    const JpegTexels& texels = read.value();
+    const PictureTexels& texels = read.value();
     EnvironmentPicture picture{texels.columns, texels.rows, {}};
     const std::size_t pixels = std::size_t{texels.columns} * texels.rows;
     picture.values.reserve(pixels);

@@ -51,7 +51,7 @@ void fill_freed_memory(int byte) {
 } // namespace
 
 TEST_CASE("a JPEG is read as opaque texels") {
-    const Result<JpegTexels> read = read_jpeg_texels(brown_jpeg(), kMaxPixels, kMaxBytes);
+    const Result<PictureTexels> read = read_jpeg_texels(brown_jpeg(), kMaxPixels, kMaxBytes);
     REQUIRE(read);
     CHECK(read.value().bytes.size() == std::size_t{read.value().columns} * read.value().rows * 4);
     CHECK(read.value().bytes[3] == 255);
@@ -63,7 +63,7 @@ TEST_CASE("a JPEG without its Huffman tables does not depend on what memory held
     std::vector<std::string> outcomes;
     for (const int byte : {0x00, 0x01, 0x5A, 0xFF}) {
         fill_freed_memory(byte);
-        const Result<JpegTexels> read = read_jpeg_texels(jpeg, kMaxPixels, kMaxBytes);
+        const Result<PictureTexels> read = read_jpeg_texels(jpeg, kMaxPixels, kMaxBytes);
         outcomes.push_back(read ? std::string(read.value().bytes.begin(), read.value().bytes.end())
                                 : read.error().message);
     }
@@ -78,7 +78,7 @@ TEST_CASE("a JPEG with a Huffman table of more than 256 codes is refused") {
     REQUIRE(table != std::string::npos);
     // The counts of codes of each length begin behind marker, length and number of the table.
     jpeg.replace(table + 5, 4, "\xFF\xFF\xFF\xFF");
-    const Result<JpegTexels> read = read_jpeg_texels(jpeg, kMaxPixels, kMaxBytes);
+    const Result<PictureTexels> read = read_jpeg_texels(jpeg, kMaxPixels, kMaxBytes);
     REQUIRE_FALSE(read);
     CHECK(read.error().message ==
           "the JPEG cannot be read: a Huffman table has more than 256 codes");

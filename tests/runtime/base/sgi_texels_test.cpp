@@ -39,13 +39,13 @@ std::string header(const Shape& shape) {
 }
 
 std::vector<int> texels(const std::string& file) {
-    const Result<SgiTexels> read = read_sgi_texels(file, kMaxPixels, kMaxBytes);
+    const Result<PictureTexels> read = read_sgi_texels(file, kMaxPixels, kMaxBytes);
     REQUIRE(read);
     return {read.value().bytes.begin(), read.value().bytes.end()};
 }
 
 std::string refusal(const std::string& file) {
-    const Result<SgiTexels> read = read_sgi_texels(file, kMaxPixels, kMaxBytes);
+    const Result<PictureTexels> read = read_sgi_texels(file, kMaxPixels, kMaxBytes);
     return read ? "accepted" : read.error().message;
 }
 

@@ -40,13 +40,13 @@ std::string targa_header(const TargaShape& shape) {
 
 std::vector<int> targa_texels(const std::string& file) {
     CHECK(is_targa(file));
-    const Result<TargaTexels> read = read_targa_texels(file, kTargaPixels, kTargaBytes);
+    const Result<PictureTexels> read = read_targa_texels(file, kTargaPixels, kTargaBytes);
     REQUIRE(read);
     return {read.value().bytes.begin(), read.value().bytes.end()};
 }
 
 std::string targa_refusal(const std::string& file) {
-    const Result<TargaTexels> read = read_targa_texels(file, kTargaPixels, kTargaBytes);
+    const Result<PictureTexels> read = read_targa_texels(file, kTargaPixels, kTargaBytes);
     return read ? "accepted" : read.error().message;
 }
 
