@@ -35,7 +35,7 @@ bool is_query(std::string_view name) {
     return name.size() == 2 && name[0] == '?';
 }
 
-/// What becomes of a command that is not drawn: the end of a message.
+/// The end of the message about a command that is not drawn: what happens to the command.
 std::string why_left_out(std::string_view name) {
     if (name.starts_with("@D")) {
         return "is left out: it scales all that follows";

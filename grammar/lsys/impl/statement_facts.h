@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the text of the current statement says about its parts, complete or not.
+// Facts about the current statement that its text tells, also if the statement is incomplete.
 #pragma once
 
 #include "grammar/lsys/impl/parse_session.h"

@@ -19,7 +19,7 @@ namespace lsys {
 /// Modules whose random draws are made together.
 inline constexpr std::uint32_t kSweepLanes = 64;
 
-/// What the productions of a sweep share.
+/// The data that all productions of a sweep use.
 struct SweepCode {
     std::vector<SweepOperation> operations;
     std::vector<float> constants; // step(), steps(), the globals, literals
