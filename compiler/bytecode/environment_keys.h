@@ -68,7 +68,7 @@ struct EnvironmentKey {
 /// The words of the kinds, in their order.
 [[nodiscard]] std::vector<std::string_view> environment_kind_names();
 
-/// Number of components of a Vector: x z for Map, else x y z.
+/// Number of components of a value of the form Vector: x z for Map, else x y z.
 [[nodiscard]] constexpr std::uint32_t axes_of(EnvironmentKind kind) {
     return kind == EnvironmentKind::Map ? 2 : 3;
 }

@@ -29,7 +29,9 @@ constexpr Commands<(sizes + ...)> joined(const Commands<sizes>&... tables) {
     return rows;
 }
 
-/// Rows whose parameters differ from the row of their operation in turtle_operations.def.
+// These functions make rows whose parameters differ from the row of their operation in
+// turtle_operations.def.
+
 constexpr TurtleCommand bare(std::string_view name, TurtleOperation operation) {
     return {name, operation, 0, ""};
 }

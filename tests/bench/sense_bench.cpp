@@ -227,7 +227,8 @@ double processor_milliseconds(const std::function<void()>& work) {
     return median(times);
 }
 
-/// Prints the throughput of sweeps. A step of such a word copies it and sweeps it once.
+/// Prints the throughput of sweeps. After kGrown generations nothing is rewritten any more, so each
+/// further step only copies the word and sweeps it once.
 void measure_sweeps(std::string_view only) {
     fmt::print("\nSweeps, copying of the word included. The hash of the parameters tells whether a "
                "change keeps their bits.\n\n{:<30}{:>10}{:>14}  hash\n",

@@ -71,7 +71,7 @@ Result derived(const lsys::Bytecode& bytecode, const Division& division) {
 }
 
 Result streamed(const lsys::Bytecode& bytecode) {
-    SmallDerivation stored(bytecode); // has the options
+    SmallDerivation stored(bytecode); // only its options are used
     lsys::WordPrinter printer(bytecode);
     std::string text;
     const lsys::StreamOutcome outcome =
@@ -167,7 +167,7 @@ std::string drawn_whole(const lsys::Bytecode& bytecode, std::uint32_t threads) {
 }
 
 std::string drawn_streamed(const lsys::Bytecode& bytecode) {
-    SmallDerivation stored(bytecode); // has the options
+    SmallDerivation stored(bytecode); // only its options are used
     return drawn(bytecode, 3, [&](lsys::Turtle& turtle) {
         const lsys::StreamOutcome outcome =
             lsys::derive_streamed(bytecode, stored.options(), [&](const lsys::StreamChunk& chunk) {

@@ -21,8 +21,9 @@ namespace {
 constexpr double kBakeTime = 0.02;
 // Max number of trees expanded into branches per picture, so that a flying camera does not stutter.
 constexpr std::uint32_t kMaxExpansions = 1000;
-// Max number of trees of a streamed forest that appear per picture.
-constexpr std::uint64_t kMaxStreamedTrees = 16'384;
+// Max number of trees of a streamed forest that a picture shows for the first time, so that a
+// flying camera does not stutter.
+constexpr std::uint64_t kMaxNewTrees = 16'384;
 // Time in s to draw a picture above which pictures have reduced quality while the camera moves.
 constexpr double kSlowPicture = 0.12;
 // Time in s without motion after which the picture is drawn again at full quality.
@@ -332,7 +333,7 @@ void ForestView::stream(Frame& frame) {
     if (streamer_ == nullptr) {
         return;
     }
-    const StreamStep step = streamer_->step(frame.camera, frame.height, kMaxStreamedTrees);
+    const StreamStep step = streamer_->step(frame.camera, frame.height, kMaxNewTrees);
     is_streaming_ = !step.is_ready;
     frame.tree_range = step.range;
     if (!step.changes.empty()) {

@@ -53,7 +53,7 @@ public:
     SourcePaneLook look;
     bool has_focus = false; // keys scroll the pane
 
-    /// Reads the loads and the picked part of a view. `wake` is called on any thread when update()
+    /// Takes newly loaded texts and the newly picked part from a view. `wake` is called on any thread when update()
     /// has work. Returns whether the pane shows something new.
     bool update(View& view, const std::function<void()>& wake);
     /// Shows and selects the statement at a place. Does nothing if its file is not shown.

@@ -59,7 +59,7 @@ LSYS_EXPORTED("lsys_reserve") char* lsys_reserve(std::uint32_t size) {
 }
 
 /// Answers the request in the first `request_size` of `size` reserved bytes. Returns the address
-/// of the pairs; 0 without memory for the answer.
+/// of pairs (address, size): the head, then each block; 0 without memory for the answer.
 LSYS_EXPORTED("lsys_answer")
 const std::uint32_t* lsys_answer(std::uint32_t request_size, std::uint32_t size) {
     Module& all = module();

@@ -25,7 +25,8 @@ public:
     /// Emits code that computes each local value i, except leaves, and moves it to slot i, ending
     /// with End.
     std::uint32_t locals(std::span<const LocalValue> values);
-    /// Emits code that computes `values` and emits each, ending with End.
+    /// Emits code that computes each of `values` and appends it to the parameters of a new module
+    /// (Emit), ending with End.
     std::uint32_t arguments(std::span<const ValueId> values);
 
     /// Whether an operand exceeded its 24 bits; the emitted code is then useless.

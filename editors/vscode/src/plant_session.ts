@@ -86,7 +86,7 @@ export class PlantSession {
       options: this.options,
       title: this.title,
     });
-    this.highlight(); // by the sources of this plant
+    this.highlight(); // the parts of the new plant that the statement at the cursor made
   }
 
   /** Handles a message of the page. */

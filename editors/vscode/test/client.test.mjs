@@ -141,7 +141,7 @@ test('a click selects the production, with Alt the module; the cursor finds the 
   session.moveCursor('file:///p/other.lsys', { line: 3, character: 17 });
   assert.deepEqual(last('highlight').sources, []);
 
-  // A new plant has other numbers; the highlight follows.
+  // The statement has another number among the sources of the new plant; the highlight follows.
   session.moveCursor(uri, { line: 3, character: 17 });
   await server.change(uri, tree.replace('F(1) A', 'f(1) A'));
   await session.refresh();

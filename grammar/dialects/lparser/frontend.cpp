@@ -209,7 +209,7 @@ private:
         for (const LparserRule& rule : file_.rules) {
             right_sides.emplace(text(rule.left)[0], text(rule.right));
         }
-        std::vector<std::pair<char, bool>> open; // symbols, with a parameter or without
+        std::vector<std::pair<char, bool>> open; // to visit: symbol, whether it has a parameter
         const auto add = [&](char symbol, bool has_parameter) {
             if ((has_parameter ? with_parameter_ : without_).insert(symbol).second) {
                 open.emplace_back(symbol, has_parameter);

@@ -15,7 +15,7 @@ import urllib.parse
 
 INSTANCING = "EXT_mesh_gpu_instancing"
 COMPONENT_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-#: Type codes of the module array by component type.
+#: Type codes of Python's module `array`, by component type of glTF.
 TYPE_CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 #: The integer that stands for 1 in normalised components, by component type.
 MAX_INTEGERS = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}

@@ -331,7 +331,7 @@ TEST_CASE("a glTF has its buffer and pictures in separate files on request") {
     // To standard output, one file contains everything.
     const LscRun whole = with({"export", "-", "-o", "-", "--format", "gltf"});
     CHECK(whole.out == run_lsc({"export", "-", "-o", "-", "--format", "gltf"}, kTree).out);
-    // A film of growth has one buffer.
+    // The film of growth has one buffer file for all its frames.
     REQUIRE(with({"export", "-", "-o", folder / "b.gltf", "--grow", "--frames", "3"}).status == 0);
     CHECK(std::filesystem::exists(folder / "b.bin"));
     CHECK(std::filesystem::exists(folder / "b.bark.png"));

@@ -189,7 +189,8 @@ TEST_CASE("a young tree has the crown of its own stage") {
     CHECK(stage_name(forest.species[0], 7) == "n0 one");
 }
 
-/// A wood with places on a grid of eighths of a metre, so that ties and borders occur.
+/// A wood with places on a grid of eighths of a metre, so that there are trees at equal distances,
+/// on the border of two quarters, and exactly two crown radii apart.
 std::vector<Tree> random_wood(std::uint32_t seed) {
     std::mt19937 engine(seed);
     const auto below = [&](std::uint32_t count) {

@@ -104,7 +104,7 @@ TEST_CASE("lsys/plant answers with the plant, its sources and the parameters") {
     CHECK(plant.at("generations") == 3);
     CHECK(plant.at("seed") == 7);
     CHECK(plant.at("level") == 0);
-    // The axiom has 2 modules, and each of the 1 + 2 + 4 productions adds 8.
+    // The axiom has 2 modules. The production is applied 1 + 2 + 4 times and adds 8 each time.
     CHECK(plant.at("modules") == 2 + 8 * 7);
     CHECK(plant.at("triangles").get<int>() > 8);
     const Json& sources = plant.at("sources");

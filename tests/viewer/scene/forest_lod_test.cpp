@@ -389,7 +389,8 @@ TEST_CASE("the number of triangles is limited, and trees wait if too many come n
     REQUIRE(all > 2000);
     options.max_triangles = all / 4;
     const DrawLists bounded = lod.select(frustum, options);
-    // Tolerance, since the budget uses the mean triangles of the impostor trees.
+    // Tolerance: the budget counts each tree with the mean number of triangles of its form
+    // (`TreeForm::triangles`), not with its own.
     CHECK(bounded.triangles <= all / 4 + all / 40);
     CHECK(bounded.detail < 1.0F);
     CHECK(branch_trees(bounded) > 0);

@@ -100,8 +100,8 @@ public:
     };
     /// Computes the lists of a picture on the device.
     void select(const ForestLod& lod, const ForestBuffers& buffers, const View& view);
-    /// Lists the trees of all cells that overlap a box, seen from above. The lists of the picture
-    /// are overwritten.
+    /// Lists the trees of all cells that overlap a box, seen from above. Overwrites the lists of
+    /// select().
     void select_casters(const ForestLod& lod, const ForestBuffers& buffers, const Bounds& box);
 
     /// The draws, for ForestBuffers::use_device_draws().
