@@ -3,7 +3,9 @@
 // prefixes of each, and, in targets of grammars, over a few changed texts. With `--seconds N` it
 // runs the function for N seconds over random changes of the files instead, which does not need
 // clang: `TARGET --seconds 60 [--seed S] [--found FILE] FILE...`. An input that ends the process is
-// written to `--found` (default found.input).
+// written to `--found` (default found.input). With `--write FOLDER --count N` it writes N changed
+// inputs into files of the folder, and runs none; their names are 0, 1, ... with the ending of the
+// first file.
 #include "tests/fuzz/input_changes.h"
 #ifdef LSYS_CHANGES_GRAMMARS
 #include "tests/fuzz/grammar_mutator.h"
@@ -15,6 +17,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -33,6 +36,8 @@ struct Options {
     double seconds = 0.0;
     std::uint64_t seed = 1;
     std::string found = "found.input";
+    std::string folder;      // of --write
+    std::uint64_t count = 0; // of --count
     std::vector<std::string> files;
 };
 
@@ -77,14 +82,34 @@ std::string changed(const std::vector<std::string>& texts, std::uint64_t seed) {
 #endif
 }
 
+/// The texts of the files, which are changed first.
+std::vector<std::string> read_all(const std::vector<std::string>& paths) {
+    std::vector<std::string> texts;
+    for (const std::string& path : paths) {
+        texts.push_back(read(path).substr(0, kMaxBytes));
+    }
+    return texts;
+}
+
+std::string
+changed_input(const std::vector<std::string>& texts, const Options& options, std::uint64_t index) {
+    return changed(texts, options.seed * 1'000'000'007U + index).substr(0, kMaxBytes);
+}
+
+void write_changes(const Options& options) {
+    const std::vector<std::string> texts = read_all(options.files);
+    const std::string ending = std::filesystem::path(options.files.front()).extension().string();
+    for (std::uint64_t i = 0; i < options.count; ++i) {
+        std::ofstream(options.folder + "/" + std::to_string(i) + ending, std::ios::binary)
+            << changed_input(texts, options, i);
+    }
+}
+
 /// Runs changed texts until the time is over. Every sixteenth that ran becomes a text to change.
 void run_changes(const Options& options) {
     constexpr std::size_t kMaxTexts = 4096;
     using Clock = std::chrono::steady_clock;
-    std::vector<std::string> texts;
-    for (const std::string& path : options.files) {
-        texts.push_back(read(path).substr(0, kMaxBytes));
-    }
+    std::vector<std::string> texts = read_all(options.files);
     const std::size_t files = texts.size();
     options_of_run = &options;
     for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGBUS, SIGPROF}) {
@@ -93,8 +118,7 @@ void run_changes(const Options& options) {
     const Clock::time_point begin = Clock::now();
     std::uint64_t count = 0;
     while (std::chrono::duration<double>(Clock::now() - begin).count() < options.seconds) {
-        const std::uint64_t seed = options.seed * 1'000'000'007U + count;
-        const std::string text = changed(texts, seed).substr(0, kMaxBytes);
+        const std::string text = changed_input(texts, options, count);
         running_input = &text;
         limit_time(kMaxSeconds);
         run(text, text.size());
@@ -136,6 +160,10 @@ Options read_options(int argc, char** argv) {
             options.seed = std::stoull(argv[++i]);
         } else if (argument == "--found" && i + 1 < argc) {
             options.found = argv[++i];
+        } else if (argument == "--write" && i + 1 < argc) {
+            options.folder = argv[++i];
+        } else if (argument == "--count" && i + 1 < argc) {
+            options.count = std::stoull(argv[++i]);
         } else {
             options.files.push_back(argument);
         }
@@ -150,6 +178,10 @@ int main(int argc, char** argv) {
     if (options.files.empty()) {
         std::fputs("no files\n", stderr);
         return 1;
+    }
+    if (!options.folder.empty()) {
+        write_changes(options);
+        return 0;
     }
     if (options.seconds > 0.0) {
         run_changes(options);
