@@ -547,7 +547,8 @@ TEST_CASE("branches of the park, with pictures of seven species, need few draw c
     const ForestFrameStats& stats = renderer->forest_stats();
     CHECK(stats.drawn_branches > 1000);
     CAPTURE(pictures.size());
-    // Whole and blended branches; a call for each picture would take up to twice their number.
+    // A draw call per picture would make up to 2 * pictures.size() calls, because whole and blended
+    // branches are drawn separately.
     CHECK(pictures.size() >= 12);
     CHECK(stats.branches.draws <= 10);
 }

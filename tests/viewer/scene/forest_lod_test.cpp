@@ -342,7 +342,7 @@ TEST_CASE("spans of a pool never overlap and are reused") {
             make_frustum(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
         std::uint32_t end = 0;
         std::uint64_t used = 0;
-        std::map<std::uint32_t, std::uint32_t> ordered; // counts of spans by first slot
+        std::map<std::uint32_t, std::uint32_t> ordered; // PoolSpan::count by PoolSpan::first
         for (const auto& [tree, span] : lod.pool().spans()) {
             CHECK(ordered.emplace(span.first, span.count).second);
         }
