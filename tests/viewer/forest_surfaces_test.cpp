@@ -440,7 +440,7 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
     write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd holes.png\n");
-    // Drawn as branches, and as an impostor.
+    // In the large picture the tree is drawn as branches, in the small one as an impostor.
     const char* const size = GENERATE("320x320", "64x64");
     const Picture picture =
         files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--no-shadows"}, size);

@@ -407,9 +407,9 @@ TEST_CASE("painted trees are undone, saved and read again") {
     CHECK(forest.painting().tree_count() == 60);
     forest.undo();
     CHECK(forest.painting().tree_count() == 59);
+    // The camera looks straight down on the painted tree at (30, 30).
     viewed.look_at(30.0F, 30.0F);
     const std::vector<std::uint8_t> painted = viewed.picture();
-    // The camera looks straight down, so the tree stands below the eye.
     const std::uint64_t swaps = forest.stats().swaps;
     CHECK(forest.is_unsaved());
     forest.save();

@@ -163,7 +163,8 @@ TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
     const auto max_change = [&](float blend) {
         return 1.5F * (kStep - 1.0F) * blend / (blend - 1.0F) + 0.01F;
     };
-    // Level of each tree: between two levels where it blends; kTreeLevels: an impostor.
+    // `levels_before`: the level of each tree, a fraction where two levels blend; kTreeLevels: an
+    // impostor.
     const auto whole = static_cast<float>(kTreeLevels);
     std::map<std::uint32_t, float> levels_before;
     float horizon_before = 0.0F;
