@@ -80,7 +80,7 @@ function options(): PlantOptions {
 
 /** Stores the text after a change by the author, who finds it again at the next visit. */
 function keep(): void {
-  history.replaceState(null, '', location.pathname + location.search); // the address holds an older text
+  history.replaceState(null, '', location.pathname + location.search); // drops an outdated link
   try {
     localStorage.setItem(kDraft, JSON.stringify({ text: editor.text, title, sample }));
   } catch {
