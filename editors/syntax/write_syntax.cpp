@@ -102,7 +102,7 @@ std::optional<std::string> read(const fs::path& path) {
 
 std::map<std::string, Words> word_lists() {
     lsys::LanguageWords words = lsys::language_words();
-    // All statements but those that editors colour by rules of their own.
+    // All statements but those for which templates have rules of their own.
     Words values = words.statements;
     std::erase_if(values, [](const std::string& word) {
         return word == "w" || word == "ignore" || word == "consider" || word == "decompose" ||

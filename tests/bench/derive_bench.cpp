@@ -163,7 +163,7 @@ lsys::DeriveOptions options_for(const Workload& workload, std::uint32_t threads)
     return options;
 }
 
-/// The folded bytecode, which `lsc` derives. The time of folding counts as time of the derivation.
+/// Folds modules, as `lsc` does before a derivation. Measured as a part of the derivation.
 lsys::Bytecode folded(const lsys::Bytecode& bytecode, const Workload& workload) {
     return lsys::fold_reached(bytecode, 0, workload.generations).value_or(bytecode);
 }

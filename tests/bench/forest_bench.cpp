@@ -99,7 +99,7 @@ ForestStage stage_of(const Kind& kind) {
     return stage;
 }
 
-/// Sets place, yaw and scale of each tree, which are drawn from one block of random numbers.
+/// Sets place, yaw and scale of each tree, with one block of random numbers per tree.
 void place(Forest& forest, std::uint32_t count) {
     forest.trees.clear();
     forest.trees.resize(count);

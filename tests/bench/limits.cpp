@@ -368,7 +368,8 @@ bool shadow_limit(const std::vector<double>& positions,
         kMaxVoxels) {
         return false;
     }
-    // In rows along y; each row has lines along x.
+    // Indexed by y, x, z, the last fastest. First counts of places, then a summed-area table over x
+    // and z for each y.
     std::vector<std::uint32_t> sums(extents[0] * extents[1] * extents[2], 0);
     const auto at = [&](std::int32_t x, std::int32_t y, std::int32_t z) -> std::uint32_t& {
         return sums[(static_cast<std::size_t>(y) * extents[0] + static_cast<std::size_t>(x)) *

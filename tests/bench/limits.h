@@ -75,9 +75,9 @@ turtle_lines(const std::uint8_t* word, std::size_t count, float degrees, float* 
 turtle_tubes(const std::uint8_t* word, std::size_t count, float degrees, float* out);
 
 /// Computes the exposure of an environment of kind Shadow with 8 levels, strength 0.2 and ratio 2,
-/// without directions: with a grid of all voxels of the bounding box, and a summed-area table per
-/// row. `positions`: x, y, z of each place in m. Returns false if the grid has more than 2^26
-/// voxels.
+/// without directions: with a grid of all voxels of the bounding box, and a summed-area table over
+/// x and z for each y. `positions`: x, y, z of each place in m. Returns false if the grid has more
+/// than 2^26 voxels.
 [[nodiscard]] bool
 shadow_limit(const std::vector<double>& positions, double cell, std::vector<float>& exposures);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Measures environments of kinds Shadow and Sky, and compares Shadow with a hand-written program for
-// the same cloud (tests/bench/limits.h), in one run on one machine. Values are medians in
-// milliseconds. Compares the answers to `?P` with the turtle alone, and measures sweeps. The
-// argument, shadow, sky, positions or sweep, leaves out the others; a second one leaves out sweeps
-// without this text in their name. Asserts nothing about time.
+// the same places (tests/bench/limits.h), in one run on one machine; medians in milliseconds.
+// Compares the time of answering `?P` with that of the turtle alone, and measures sweeps.
+// Usage: sense_bench [shadow | sky | positions | sweep [TEXT]]: the only kind to measure; TEXT: a
+// part of the names of the sweeps to measure. Asserts nothing about time.
 #include "runtime/base/workers.h"
 #include "runtime/derive/derive.h"
 #include "runtime/environment/environment.h"
@@ -129,7 +129,7 @@ void measure_sky(const char* name, std::size_t count, float cell) {
                bench::hash(answers));
 }
 
-/// Compares the answers to 2^20 `?P` of a word with drawing the same word.
+/// Compares the time of answering 2^20 `?P` of a word with that of drawing the word.
 void measure_positions() {
     const Bytecode bytecode =
         bench::compile_text("#w : A;\n"
@@ -172,7 +172,7 @@ struct SweepRow {
     const char* sweeps; // productions of `#down` or `#up`
 };
 
-/// A chain of 2^20 modules, and a plant of 2^17 forks whose segments have one or two parameters.
+/// A chain of 2^20 modules, and a plant that forks 17 times, with one parameter in each F and L.
 constexpr const char* kSweptChain = "#w : B; #p : B : step() < 20 : B B; #q : B : * : A(1);";
 constexpr const char* kSweptPlant = "#w : B; #p : B : step() < 17 : F(1) [ + B ] [ - B ];"
                                     "#q : B : * : L(1);";

@@ -46,7 +46,7 @@ const sizesOfSamples = [
     [/pipe-model-pine.*spray/, '448 x 512'],
     [/roots-in-soil.*soil_2|roots-in-soil.*soil 2/, '128 x 128'],
 ];
-// The size of a JPEG, which the first frame header (SOF0 to SOF2) of its segments has.
+// The size of a JPEG, from its frame header, the segment SOF0, SOF1 or SOF2.
 function sizeOfJpeg(bytes) {
     let at = 2;
     while (bytes[at + 1] < 0xc0 || bytes[at + 1] > 0xc2) {
@@ -346,7 +346,7 @@ const checks = {
             let moved = 0;
             for (const number of [0, 1, Math.floor(mesh.frames / 2), mesh.frames - 1]) {
                 const expected = frame(number);
-                // Vertices of the PLY that lie where the vertex is at rest.
+                // `at`: by place at rest, the indices of the vertices of the PLY.
                 const found = posedVertices(three, gltf, number / mesh.fps);
                 const at = new Map();
                 first.forEach((place, i) => {

@@ -227,8 +227,8 @@ for (const tile of tiles) {
 const leafDepth = Math.max(...tiles.map(tile => tile.depth));
 const finest = treesOfDepth.get(leafDepth) ?? new Map();
 check(finest.size === Number(treeCount), `${finest.size} trees instead of ${treeCount}`);
-// Each level that shows trees shows all of them, at about the same places: levels of detail of a hero
-// have origins of their own, up to the extent of the hero.
+// Each level that shows trees shows all of them, at about the same places: the origins of two levels
+// of detail of a tree may be as far apart as the tree is large.
 for (const [depth, trees] of treesOfDepth) {
     check(trees.size === finest.size, `depth ${depth}: ${trees.size} trees`);
     for (const [number, tree] of trees) {

@@ -142,7 +142,7 @@ void record(const char* call, int file) {
     }
 }
 
-// Records a rename, with the paths as given.
+// Renames a file, unless the call shall fail. Records the paths as given.
 int renamed(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
     if (fails(Rename)) {
         return -1;
@@ -163,7 +163,7 @@ F* next(const char* name) {
 
 extern "C" {
 
-// Counts all calls anew, and sets the call that fails, as LSYS_FAULT; null: none.
+// Sets all counts to 0, and takes the fault from `text`, written as LSYS_FAULT; null: no fault.
 __attribute__((visibility("default"))) void lsys_set_fault(const char* text) {
     is_ready = false;
     fault = text == nullptr ? Fault() : parse(text);
@@ -172,7 +172,7 @@ __attribute__((visibility("default"))) void lsys_set_fault(const char* text) {
     }
     is_ready = true;
 }
-// The number of calls with the name `call` since then.
+// The number of calls with the name `call` since lsys_set_fault().
 __attribute__((visibility("default"))) std::uint64_t lsys_count_calls(const char* call) {
     for (int each = 0; each < CallCount; ++each) {
         if (std::strcmp(kNames[each], call) == 0) {

@@ -207,7 +207,7 @@ class Bench:
         return [(call, os.path.basename(path), os.path.basename(second)) for call, path, second in fields]
 
     def kill(self, command, old, seconds):
-        """Returns the same for a run that SIGKILL ends after `seconds`."""
+        """The files before a run that SIGKILL ends after `seconds`, its outcome, and the files after a rerun."""
         folder = self.prepare(command, old)
         before = files_in(folder)
         process = self.start(command, folder, "", "")
@@ -249,7 +249,7 @@ def mistakes_after_fault(command, call, usual, before, outcome):
 
 
 def incomplete_files(usual, before, outcome, may_remain=lambda name: False):
-    """Each file must have its old or its new content, and no other may be there but those that may remain."""
+    """What is wrong: files neither as before nor as usual; other files, except those for which may_remain() is true."""
     wrong = []
     for name in outcome.files.keys() | before.keys():
         content = outcome.files.get(name)

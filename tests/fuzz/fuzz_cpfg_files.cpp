@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMaxGrammarBytes = 100'000;
 
-/// All commands occur, so that no line of a view file is left out.
+/// The uses of a model with all commands, for which no line of a view file is left out.
 lsys::CpfgUses all_uses() {
     lsys::CpfgUses uses;
     uses.sets_widths = uses.steps_widths = uses.steps_colours = true;
@@ -85,7 +85,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         // A name with a quotation mark or a line end is refused by the scanner.
         static_cast<void>(compiles("#object " + letter + " " + lsys::object_text(surface) + ";\n"));
     }
-    // These keep numbers as they are written, which settings may refuse: a width below 0.
+    // Not all of these statements compile: they keep numbers of the file, as a width below 0.
     std::string looks;
     for (const lsys::CpfgLooks::Text& line :
          lsys::read_looks(lsys::kNoFile, text, all_uses()).statements) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compiles any bytes as a file of one dialect, LSYS_FUZZ_DIALECT. Either there is an error, or the
 // output of `lsc import` compiles, keeps its form when it is formatted again, and derives the same
-// word with as many modules.
+// word or stops for the same reason.
 #include "grammar/format/format.h"
 #include "tests/fuzz/compiled.h"
 

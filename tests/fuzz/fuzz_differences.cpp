@@ -43,7 +43,7 @@ std::string text_of(const lsys::DerivationEnd& end) {
            std::to_string(error.generation) + ":" + std::to_string(error.position);
 }
 
-/// Whether a derivation ended because of memory or size, at a place that may depend on the way.
+/// Whether a derivation ended because of memory or size; where it ends may depend on how it runs.
 bool is_limit(const Result& result) {
     return result.stop == lsys::Stop::Limit || result.stop == lsys::Stop::OutOfMemory;
 }
@@ -208,7 +208,7 @@ public:
     }
 
 private:
-    /// The bytecode after it was written and read; the same bytes are written again.
+    /// `bytecode` read back from a .lsb file, of which it must make the same bytes again.
     lsys::Bytecode from_file(const lsys::Bytecode& bytecode) const {
         const std::string bytes = lsys::write_module_file(bytecode);
         lsys::Result<lsys::Bytecode> read = lsys::read_module_file(bytes);
@@ -241,7 +241,7 @@ private:
             return;
         }
         if (whole.stop == lsys::Stop::Diagnosed && result.stop == whole.stop) {
-            return; // it visits modules in another order, so another error may come first
+            return; // streaming visits modules in another order and may meet another error first
         }
         check("streamed", whole, result);
     }

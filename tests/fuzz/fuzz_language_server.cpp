@@ -105,7 +105,7 @@ private:
 using Texts = std::map<std::size_t, std::string>;
 
 std::string valid_text(std::string_view bytes) {
-    // As JSON has it: bytes that are no UTF-8 replaced, `\n` as a line end.
+    // JSON replaces bytes that are no UTF-8. `\n` in the input stands for a line end.
     const std::string dumped = Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string text = Json::parse(dumped).get<std::string>();
     for (std::size_t at = text.find("\\n"); at != std::string::npos; at = text.find("\\n", at)) {

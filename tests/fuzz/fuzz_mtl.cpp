@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads any bytes as the materials of an OBJ file. The first line has the names of the wanted
-// materials, separated by blanks; the rest is the MTL file. Names of pictures lie within the file.
+// materials, separated by blanks; the rest is the MTL file. Picture names stand at their offsets.
 #include "runtime/meshing/user_mesh.h"
 #include "tests/fuzz/input_bytes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Takes the lines of the input as the answers of the program of an environment, and derives a plant
-// that asks it. Answers that are accepted are as many numbers as the reader says.
+// that asks it. If answers are accepted, their stated sizes add up to the count of numbers.
 #include "runtime/environment/program.h"
 #include "tests/fuzz/compiled.h"
 #include "tests/fuzz/input_bytes.h"

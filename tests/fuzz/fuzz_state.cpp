@@ -19,8 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-/// States of later ages are not continued: two more generations would exceed the number of a
-/// generation.
+/// States of this age or later are not continued: the numbers of two more generations might exceed
+/// 32 bits.
 constexpr std::uint32_t kLastAge = 0xFFFFFFF0U;
 
 constexpr std::array kGrammars{

@@ -185,7 +185,7 @@ void change_tokens(Pieces& tokens, Random& random) {
     const std::size_t other = random.below(tokens.size());
     const auto place = tokens.begin() + static_cast<std::ptrdiff_t>(at);
     switch (random.below(7)) {
-    case 0: // a token of the same kind
+    case 0: // replaces a token by another one of the same kind
         for (std::size_t i = 0; i < tokens.size(); ++i) {
             const std::string& found = tokens[(other + i) % tokens.size()];
             if (kind_of(found) == kind_of(tokens[at]) && found != tokens[at]) {
@@ -213,7 +213,7 @@ void change_tokens(Pieces& tokens, Random& random) {
         tokens.insert(place, run.begin(), run.end());
         return;
     }
-    default: // a number, where one is near
+    default: // replaces the next number, if there is one
         for (std::size_t i = at; i < tokens.size(); ++i) {
             if (kind_of(tokens[i]) == 0) {
                 tokens[i] = kTexts[random.below(11)];

@@ -57,7 +57,7 @@ void change(std::string& text, std::string_view other, Choices& choices) {
         text.replace(begin, end - begin, kNumbers[choices.below(kNumbers.size())]);
         return;
     }
-    case 5: { // exchanges two lines' beginnings
+    case 5: { // inserts a part of the text after a line end, as the beginning of the next line
         const std::size_t line = std::min(text.find('\n', at), text.size());
         text.insert(line, "\n" + std::string(choices.part(text)));
         return;

@@ -156,7 +156,7 @@ std::string view_of(const Exported& file, std::size_t number) {
     return decoded;
 }
 
-/// The items of an accessor. Checks that a stride of its view is the size of an item.
+/// The items of an accessor. Checks that the stride of its view, if any, is the size of an item.
 std::string bytes_of(const Exported& file, std::size_t number, std::size_t item_bytes) {
     const json& accessor = file.document["accessors"][number];
     const auto view_number = accessor["bufferView"].get<std::size_t>();

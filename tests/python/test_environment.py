@@ -21,7 +21,7 @@ LIGHT = ("#n = 4; #set angle 25; #sense light program; #w : F ?light(0, 0, 3) A(
          "#p : ?light(q, x, y) < A(l) : q > 0.2 : F(l) [ + f ?light(0) A(l*q) ] & f ?light(0, 0, 5) A(l*0.9);")
 ONE = "#n = 2; #sense light program; #w : F ?light(0) A; #p : A : * : F ?light(0) A;"
 
-# The program, which is also the function: two numbers for each query.
+# A program that answers each query with two numbers, as light() does.
 PROGRAM = """
 import json, struct, sys
 def answer(position, heading, parameters):

@@ -115,7 +115,7 @@ class Equality(unittest.TestCase):
         self.assertEqual(len(segments), len(parents))
         self.assertEqual(segments["parent"].tolist(), parents[:, 0].tolist())
         self.assertEqual(segments["order"].tolist(), parents[:, 1].tolist())
-        # The text has w first in a frame.
+        # In the text, the quaternion of a frame begins with w.
         mine = np.column_stack([segments["base"], np.roll(segments["frame"], 1, axis=1), segments["length"],
                                 segments["base_radius"], segments["tip_radius"], segments["spring"],
                                 segments["mass"]]).astype(np.float32)

@@ -313,7 +313,7 @@ TEST_CASE("a surface lies as in cpfg") {
     turtle.execute('&', 50.0);
     turtle.execute('/', 20.0);
     turtle.execute('+', 30.0);
-    // Axes of the file, and its coordinates along them relative to the contact point.
+    // Axes of leaf.s; its corners are measured along them from the contact point.
     const glm::dvec3 heading(0.6, 0.8, 0.0);
     const glm::dvec3 left = glm::cross(heading, glm::dvec3(0.0, 0.0, -1.0));
     const glm::dvec3 up = glm::cross(left, heading);

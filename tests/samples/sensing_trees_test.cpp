@@ -109,7 +109,7 @@ TEST_CASE("a tree in a dome of space stays in it and stops when the space is tak
     const std::size_t last = word.rfind('\n', word.size() - 2);
     const std::size_t before = word.rfind('\n', last - 1);
     CHECK(word.substr(last + 1) == word.substr(before + 1, last - before));
-    // The dome is 4.4 m wide and ends at 4.8 m; a bud reaches 0.5 m and a shoot may leave it.
+    // The dome is 4.4 m wide and ends at 4.8 m; shoots of its buds may leave it by 0.5 m.
     const Skeleton skeleton = test::sample_plant("self-organising-space").skeleton;
     const SkeletonStats stats = measure(skeleton);
     CHECK(stats.height < 4.8 + 0.5);

@@ -167,8 +167,8 @@ private:
     std::map<std::vector<std::uint32_t>, Code> folded_;
 };
 
-/// The names and parameter counts in a pattern. Patterns with equal texts belong to the same rule
-/// or group.
+/// The names and parameter counts in a pattern. Productions for whose patterns the result is equal
+/// belong to the same rule or group.
 std::string shape_of(const std::optional<std::string>& text) {
     std::string shape = text ? "present " : "absent ";
     for (const ModuleText& module : read_modules(text.value_or(""))) {

@@ -49,7 +49,7 @@ void add_tube(Mesh& mesh,
         for (std::uint32_t side = 0; side <= sides; ++side) {
             const float u = static_cast<float>(side) / static_cast<float>(sides);
             const float angle = 2.0F * std::numbers::pi_v<float> * u;
-            // Turns from +X towards -Z, so that u runs to the right, seen from outside.
+            // `angle` turns from +X towards -Z, so that u runs to the right, seen from outside.
             const glm::vec3 out(std::cos(angle), 0.0F, -std::sin(angle));
             const glm::vec3 around(-std::sin(angle), 0.0F, -std::cos(angle));
             add_vertex(mesh, base + 0.1F * out + glm::vec3(0.0F, 2.0F * along, 0.0F), out,

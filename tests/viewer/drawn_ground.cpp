@@ -15,7 +15,7 @@ using view::TerrainLod;
 
 namespace {
 
-/// Cells along a side of a node: four patches.
+/// Cells along a side of a node, which has 2 by 2 patches.
 constexpr float kNodeCells = 2.0F * static_cast<float>(view::kPatchCells);
 
 /// Morph factor, computed like terrain.vert.glsl.
@@ -46,7 +46,7 @@ std::uint32_t level_at(const TerrainLod& lod, const glm::vec3& eye, const glm::v
 } // namespace
 
 float drawn_height(const TerrainLod& lod, const glm::vec3& eye, float x, float z) {
-    // The positions to which the corners of the cell have morphed.
+    // corner(): the position to which a corner of a cell has morphed.
     const std::uint32_t level = level_at(lod, eye, {x, z});
     const HeightGrid& grid = lod.grid(level);
     const float size = TerrainLod::cell(level);

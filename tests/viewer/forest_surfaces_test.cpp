@@ -440,7 +440,7 @@ TEST_CASE("meshes and polygons of a forest show their pictures, with holes") {
                "mtllib card.mtl\nusemtl card\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n"
                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
     write_text(files.folder / "card.mtl", "newmtl card\nmap_Kd holes.png\n");
-    // Drawn as branches, and as an impostor.
+    // In the large picture the tree is drawn as branches, in the small one as an impostor.
     const char* const size = GENERATE("320x320", "64x64");
     const Picture picture =
         files.picture("eye 20,1,25 target 20,1,20 fov 30", {"--no-shadows"}, size);
@@ -547,7 +547,8 @@ TEST_CASE("branches of the park, with pictures of seven species, need few draw c
     const ForestFrameStats& stats = renderer->forest_stats();
     CHECK(stats.drawn_branches > 1000);
     CAPTURE(pictures.size());
-    // Whole and blended branches; a call for each picture would take up to twice their number.
+    // A draw call per picture would make up to 2 * pictures.size() calls, because whole and blended
+    // branches are drawn separately.
     CHECK(pictures.size() >= 12);
     CHECK(stats.branches.draws <= 10);
 }

@@ -90,7 +90,7 @@ TEST_CASE("eight pictures of a still view are as smooth as eight samples per pix
     CAPTURE(one, eight, temporal);
     CHECK(eight < 0.6 * one);
     CHECK(temporal < 1.3 * eight);
-    // A picture without it begins anew.
+    // A picture without temporal antialiasing ends the use of earlier pictures.
     CHECK(error_of(view.draw(false), truth) == one);
     CHECK(view.draw(true).texels == first.texels);
 }

@@ -33,7 +33,7 @@ public:
     /// Answers one request, a JSON object with the name of an operation in `op` (operations.cpp has
     /// their list). `files`: the bytes of the items of `files` in the request, one after the other;
     /// the session keeps them until another request has `files`. A failure is an answer with
-    /// another `status` than "ok" and messages; only a lack of memory for the answer itself throws.
+    /// messages and a `status` other than "ok"; only a lack of memory for the answer itself throws.
     [[nodiscard]] Answer answer(std::string_view request, std::string_view files);
 
     [[nodiscard]] const Project& project() const { return project_; }

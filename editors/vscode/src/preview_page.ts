@@ -10,7 +10,7 @@ export interface PageParts {
 }
 
 export function previewPage({ script, source, nonce }: PageParts): string {
-  // Pictures of a GLB are blobs of the page. three.js fetches them.
+  // three.js makes a blob: URL of each picture of a GLB, and fetches it.
   const policy = [
     "default-src 'none'",
     `script-src 'nonce-${nonce}'`,

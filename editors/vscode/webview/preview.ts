@@ -187,8 +187,8 @@ function showParameters(parameters: Parameter[]): void {
 }
 
 function showValues(message: Extract<ToPage, { type: 'plant' | 'problem' }>): void {
-  // The page may have sent newer options meanwhile; their answer follows. A grammar with a mistake
-  // leaves the values of the last plant.
+  // Shows the options of the page, not those of the message: the page may have sent newer ones,
+  // whose answer follows. A message about a mistake does not change the values of the last plant.
   if (message.type === 'plant') {
     lastInfo = message.info;
     lastGeneration = message.lastGeneration;

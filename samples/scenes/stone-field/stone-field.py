@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of stone-field.toml: stones.png and stones-normals.png, a ground of round stones in moss that
-continues beyond its edges, and blade.png, a leaf with holes.
+"""Draws the pictures of stone-field.toml: stones.png and stones-normals.png, round stones in moss, which repeat
+without seams, and blade.png, a leaf with holes.
 Usage: samples/scenes/stone-field/stone-field.py      Needs Python alone; draws the same pictures each time."""
 import hashlib
 import os

@@ -96,7 +96,7 @@ TEST_CASE("the view file gives the samples of an older function file") {
 TEST_CASE("curves without a table, and damaged ones") {
     CHECK(curve_table(curve_of("fver 1 1\nsamples: 2\npoints: 4\n0 0\n0 0\n1 1\n1 1\n")).empty());
     CHECK(curve_table(curve_of("fver 1 1\nsamples: 1e9\npoints: 4\n0 0\n0 0\n1 1\n1 1\n")).size() ==
-          5); // the number of the view file
+          5); // samples that the view file of curve_of() sets
     CHECK(curve_of("points: 3\n0 0\n1 nan\n2 2\n").points.empty());
     CHECK(curve_of("points: 2\n0 0 600\n1 1 600\n").points.empty()); // too many points
     // A curve that ends before x = 1.

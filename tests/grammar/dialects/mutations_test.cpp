@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texts of dialects with one mistake, as of a typing hand: few messages, each within the file.
+// Texts of dialects with one typing mistake give few errors, each at a place within the file.
 #include "grammar/dialects/dialect.h"
 #include "grammar/rendering/render_diagnostic.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What trees of a forest sense: its drawing, obstacles under the mouse, and plants that grow again
+// Drawings of what trees of a forest sense, obstacles under the mouse, and plants that grow again
 // when an obstacle moves.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
@@ -56,7 +56,7 @@ public:
         view.emplace(options_of(folder_ / "wood.toml"), console_, *renderer_, [] {});
     }
 
-    /// Steps until the heroes have so many segments; returns false after 60 s.
+    /// Steps until the heroes have `count` segments; returns false after 60 s.
     bool until_segments(std::size_t count) {
         for (const auto start = SteadyClock::now(); SteadyClock::now() - start < 60s;) {
             step();
@@ -187,8 +187,8 @@ TEST_CASE("plants of a forest grow again while the mouse drags their obstacle") 
     const std::vector<EnvironmentMove>& moves = viewed.view->settings.edits.species["plant"].moves;
     REQUIRE(moves.size() == 1);
     CHECK(moves[0].name == "wall");
-    // 30 of 60 pixels to the left of the middle, at a depth of 3 sqrt(2) m; the picture is turned
-    // by 45 degrees.
+    // The mouse has moved 30 pixels to the left, a quarter of the picture's height. The wall is
+    // 3 sqrt(2) m away from the eye, and the view turned by 45 degrees.
     const double half = std::tan(0.5 * 40.0 * std::numbers::pi / 180.0);
     CHECK(moves[0].by[0] == Approx(-0.5 * half * 3.0).epsilon(1e-3));
     CHECK(camera == before);

@@ -63,7 +63,7 @@ public:
             REQUIRE(squares.emplace(square->id, square).second);
         }
     }
-    /// Shows what a camera wants in a picture 720 pixels high.
+    /// Shows the squares that a camera wants in a picture 720 pixels high.
     std::optional<float> settle(ForestStreamer& streamer, const Camera& camera) {
         return streamer.settle(
             camera, 720, [this](const SquareChanges& changes) { apply(changes); },

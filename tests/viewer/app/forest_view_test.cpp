@@ -286,7 +286,7 @@ TEST_CASE("after a change of season the picture, with its shadows, is that of a 
         REQUIRE(viewed.until_swaps(2));
         changed = settle(viewed);
         CHECK(changed != before);
-        // Writing it to the scene changes one line, and not the picture.
+        // Writing the season to the scene changes one line, and not the picture.
         CHECK(viewed.forest().is_unsaved());
         viewed.forest().save();
         CAPTURE(viewed.forest().note());
@@ -299,7 +299,7 @@ TEST_CASE("after a change of season the picture, with its shadows, is that of a 
     ViewedForest viewed(options);
     REQUIRE(viewed.until_swaps(1));
     CHECK(settle(viewed) == changed);
-    // A scene that sets the constant itself leaves nothing to the season.
+    // If `define` sets the constant `season`, the forest has no season.
     write_text(files.scene, wood(12, "define = { season = 0.3 }\n"));
     viewed.forest().reload();
     REQUIRE(viewed.until_swaps(2));
@@ -407,9 +407,9 @@ TEST_CASE("painted trees are undone, saved and read again") {
     CHECK(forest.painting().tree_count() == 60);
     forest.undo();
     CHECK(forest.painting().tree_count() == 59);
+    // The camera looks straight down on the painted tree at (30, 30).
     viewed.look_at(30.0F, 30.0F);
     const std::vector<std::uint8_t> painted = viewed.picture();
-    // The camera looks straight down, so the tree stands below the eye.
     const std::uint64_t swaps = forest.stats().swaps;
     CHECK(forest.is_unsaved());
     forest.save();

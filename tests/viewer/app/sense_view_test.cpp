@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What plants sense: its drawing, obstacles under the mouse, and plants that grow again when an
+// Drawings of what plants sense, obstacles under the mouse, and plants that grow again when an
 // obstacle moves.
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
@@ -241,8 +241,8 @@ TEST_CASE("the mouse with Shift drags an obstacle instead of the camera") {
     CHECK(viewed.view.settings.moves.empty());
     drag(true);
     REQUIRE(viewed.view.settings.moves.size() == 1);
-    // 30 of 60 pixels to the left of the middle, at a depth of 3 sqrt(2) m; the picture is turned
-    // by 45 degrees.
+    // The mouse has moved 30 pixels to the left, a quarter of the picture's height. The wall is
+    // 3 sqrt(2) m away from the eye, and the view turned by 45 degrees.
     const double half = std::tan(0.5 * 40.0 * 3.14159265358979 / 180.0);
     CHECK(viewed.view.settings.moves[0].by[0] == Approx(-0.5 * half * 3.0).epsilon(1e-4));
     CHECK(viewed.view.settings.moves[0].by[1] == Approx(0.0).margin(1e-5));

@@ -75,7 +75,7 @@ std::vector<Camera> culling_cameras() {
             {{500, 40, 500}, {0, 0, 0}, 40.0F}};
 }
 
-/// Entries by index: blend range in 1/1000.
+/// Blend ranges of entries in 1/1000, by ImpostorEntry::index.
 std::map<std::uint32_t, std::pair<long, long>> ranges_of(const std::vector<ImpostorEntry>& list) {
     std::map<std::uint32_t, std::pair<long, long>> ranges;
     for (const ImpostorEntry& entry : list) {

@@ -144,15 +144,14 @@ struct PickedWood {
 
 TEST_CASE("a picked branch is the first one on the ray through the middle of the pixel") {
     PickedWood wood;
-    // Levels depend on the heights of trees in pixels, so a larger picture is needed for the finest
-    // level.
     wood.show();
     std::size_t branches = 0;
     std::size_t wrong = 0;
     std::set<std::uint32_t> instances;
     for (std::uint32_t y = 1; y < kHeight; y += 3) {
         for (std::uint32_t x = 1; x < kWidth; x += 3) {
-            // In a picture 16 times as large, the tree has its finest level.
+            // Levels depend on the heights of trees in pixels: in a picture 16 times as large, the
+            // tree has its finest level.
             Frame large = wood.frame;
             large.width *= 16;
             large.height *= 16;

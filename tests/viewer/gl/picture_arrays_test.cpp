@@ -86,12 +86,12 @@ TEST_CASE("an enlarged picture repeats without a seam and keeps its colours") {
         sum += large.texels[4 * x];
         CHECK(large.texels[4 * x + 1] == 100);
         CHECK(large.texels[4 * x + 3] == 255);
-        // The rows are equal, and the right half mirrors the left half.
+        // The rows are equal, and a red and the one 3 columns beside it have the sum 240 + 40.
         CHECK(large.texels[4 * x] == large.texels[4 * (12 + x)]);
         CHECK(std::abs(large.texels[4 * x] + large.texels[4 * ((x + 3) % 6)] - 280) <= 1);
     }
     CHECK(std::abs(sum - 6 * 140) <= 3);
-    // The first column has a part of the last one.
+    // The first column is mixed with the last one, because the picture repeats.
     CHECK(large.texels[0] < 240);
     CHECK(large.texels[0] > 140);
     CHECK(large.texels[4] == 240);

@@ -163,7 +163,8 @@ TEST_CASE("a tree that comes nearer blends from one LOD band to the next") {
     const auto max_change = [&](float blend) {
         return 1.5F * (kStep - 1.0F) * blend / (blend - 1.0F) + 0.01F;
     };
-    // Level of each tree: between two levels where it blends; kTreeLevels: an impostor.
+    // `levels_before`: the level of each tree, a fraction where two levels blend; kTreeLevels: an
+    // impostor.
     const auto whole = static_cast<float>(kTreeLevels);
     std::map<std::uint32_t, float> levels_before;
     float horizon_before = 0.0F;
@@ -342,7 +343,7 @@ TEST_CASE("spans of a pool never overlap and are reused") {
             make_frustum(looking({along, 2, 50}, {along + 1, 2, 50}), 640, 480), options);
         std::uint32_t end = 0;
         std::uint64_t used = 0;
-        std::map<std::uint32_t, std::uint32_t> ordered; // counts of spans by first slot
+        std::map<std::uint32_t, std::uint32_t> ordered; // PoolSpan::count by PoolSpan::first
         for (const auto& [tree, span] : lod.pool().spans()) {
             CHECK(ordered.emplace(span.first, span.count).second);
         }

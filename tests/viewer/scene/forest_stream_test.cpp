@@ -84,8 +84,8 @@ StreamedWood make_streamed_wood(double shift) {
 }
 
 struct DrawnSquares {
-    std::vector<std::array<float, 4>> trees; // place and first threshold, in the order of drawing
-    std::vector<std::array<float, 4>> clusters;                // place and first threshold
+    std::vector<std::array<float, 4>> trees; // place and BlendRange::low, in the order of drawing
+    std::vector<std::array<float, 4>> clusters;                // place and BlendRange::low
     std::vector<std::pair<std::uint32_t, std::uint32_t>> runs; // instance and count
     std::uint64_t triangles = 0;
 

@@ -86,7 +86,7 @@ TEST_CASE("a mip level keeps the coverage of each part of a tree") {
     }
     CHECK(counts[0] == Approx(sums[0]).epsilon(0.2));
     CHECK(counts[1] == Approx(sums[1]).epsilon(0.2));
-    // Whole and empty pictures stay, and so does a line of whole texels.
+    // Opaque and empty pictures do not change, and texels of an opaque line stay opaque.
     ImpostorTexels whole{kSide, kSide, std::vector<std::uint8_t>(4 * kSide * kSide, 255), {}};
     CHECK((with_coverage(whole) == whole.albedos));
     ImpostorTexels empty{kSide, kSide, std::vector<std::uint8_t>(4 * kSide * kSide, 0), {}};

@@ -82,9 +82,9 @@ export interface MeshOptions extends PlantOptions {
 /** The constant of a `#define` or `#param`. */
 export interface Constant {
   name: string;
-  /** Of a `#param`, with a range from `min` to `max`. */
+  /** Whether the statement is a `#param`, with a range from `min` to `max`. */
   isParameter: boolean;
-  /** Drawn for each seed, so it has no value. */
+  /** Whether the value is drawn for each seed; `value` has no meaning. */
   isRandom: boolean;
   value: number;
   min: number;
@@ -99,9 +99,9 @@ export interface Setting {
   kind: 'number' | 'count' | 'vector' | 'word';
   /** The value: four numbers of a vector, else one. */
   numbers: number[];
-  /** "an angle in degrees" */
+  /** The values allowed, as a phrase: "an angle in degrees". */
   accepts: string;
-  /** The value of the kind `word`. */
+  /** The value if `kind` is `word`. */
   word: string;
   words: string[]; // all values that `word` may have
   /** Range of a slider; none unless `max` is above `min`. */

@@ -67,8 +67,8 @@ let grammar: Grammar | null = null;
 let mode: 'plant' | 'forest' = 'plant';
 let isNew = true; // the next plant is fitted into the view
 let isStopped = false; // the author has pressed Stop; until the next change
-let wanted = 0; // number of the text to show
-let shown = 0; // number of the text that has been shown
+let wanted = 0; // number of the newest text: calls of refresh() so far
+let shown = 0; // number of the text shown last
 let running = false; // run() is in progress
 let playing = false; // a growth is played
 
@@ -80,7 +80,7 @@ function options(): PlantOptions {
 
 /** Stores the text after a change by the author, who finds it again at the next visit. */
 function keep(): void {
-  history.replaceState(null, '', location.pathname + location.search); // the link has another text
+  history.replaceState(null, '', location.pathname + location.search); // drops an outdated link
   try {
     localStorage.setItem(kDraft, JSON.stringify({ text: editor.text, title, sample }));
   } catch {

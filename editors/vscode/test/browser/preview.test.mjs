@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page of the preview in Chromium, with plants of the server. The extension is replaced by the
-// session alone, and the texts of the editor by a list of selections.
+// The page of the preview in Chromium, with plants of the server. PlantSession stands for the whole
+// extension, and a list of the ranges that it selects for the editor.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -139,7 +139,7 @@ test('the plant is drawn, follows the text and the sliders, and is clicked', asy
     [uri, { start: { line: 7, character: 19 }, end: { line: 7, character: 23 } }],
   ]);
 
-  // A click leaves the camera to the plant; a drag does not.
+  // A drag moves the camera, the clicks so far did not.
   const isMoved = () => page.evaluate(() => globalThis.plantView.isMovedByUser());
   assert.equal(await isMoved(), false);
   await page.mouse.move(600, 300);

@@ -23,8 +23,8 @@ TEST_CASE("a closed contour is sampled at equal distances from the axis on") {
     REQUIRE(points.size() == 13);
     CHECK(points.front().x == points.back().x);
     CHECK(points.front().y == points.back().y);
-    CHECK(points.front().x == Approx(0.0).margin(1e-9)); // x of cpfg is down here
-    CHECK(points.front().y == Approx(-1.0 / 3.0));       // (1 + 4 * 0 ... )/6 of the spline, halved
+    CHECK(points.front().x == Approx(0.0).margin(1e-9)); // +X of cpfg is -Y here
+    CHECK(points.front().y == Approx(-1.0 / 3.0));       // half of the spline's (0 + 4 * 1 + 0) / 6
     double shortest = 1e9;
     double longest = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i) {
