@@ -336,11 +336,11 @@ struct Ast {
     std::vector<IgnoreNode> ignores;
     std::vector<AxiomNode> axioms;
     ChunkedVector<ProductionNode> productions;
-    ChunkedVector<LocalNode> locals; // locals of productions, consecutive
+    ChunkedVector<LocalNode> locals; // the locals of one production are consecutive
 
     ChunkedVector<Expression> expressions;
-    ChunkedVector<ExpressionId> expression_lists; // arguments of calls, consecutive
-    ChunkedVector<ListRange> argument_lists;      // arguments of function calls
+    ChunkedVector<ExpressionId> expression_lists; // lists of arguments, formals and coordinates
+    ChunkedVector<ListRange> argument_lists;      // per function call: range of expression_lists
     ChunkedVector<ModuleNode> modules;
     ChunkedVector<CallNode> calls;
 

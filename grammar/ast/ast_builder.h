@@ -184,10 +184,10 @@ private:
     void push_module_of_edited_text(NameId name, TextRange text);
     /// Appends a module; stores the end of its name if the text of the file does not give it.
     void push_with_place(NameId name, SourceSpan span);
-    /// Returns `span`, or the last span in the file of the list if `span` is in another file:
-    /// modules store offsets without files. Only statements of a translation can span files.
+    /// Returns `span`; if it is in another file than the list, the last span of the list instead,
+    /// because modules store offsets without files. Only statements of translations span files.
     [[nodiscard]] SourceSpan place_in_list(SourceSpan span);
-    /// Adds the modules appended since the list began, up to `span`.
+    /// Extends `list` up to the last module of Ast::modules, and list.span by `span`.
     void extend_list(ModuleList& list, SourceSpan span);
     /// Begins the call of the last module and sets CallNode::module. Returns false if the module
     /// cannot take `parentheses`, which is reported here or has been reported before.
@@ -198,8 +198,8 @@ private:
     ExpressionId plain_number(std::uint32_t begin, std::uint32_t end);
     /// Appends each letter as a module; reports other characters.
     void push_letters(TextRange word);
-    /// Appends the sense module `?NAME` at the beginning of `run`; returns its end. With single
-    /// letters NAME is one letter.
+    /// Appends the sense module `?NAME` at the beginning of `run`; returns its end. Unless
+    /// module names are words, NAME is one letter.
     std::uint32_t push_sense(TextRange run);
     /// Appends one character, which stands for the bytes of `text`.
     void push_character(std::string_view character, TextRange text);

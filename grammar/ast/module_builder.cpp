@@ -98,7 +98,7 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
     std::uint32_t at = run.begin;
     std::uint32_t name_end = run.begin;
     constexpr std::uint32_t kBytesPerLook = 1U << 16U;
-    std::uint32_t next_look = run.begin; // look at the flag of cancellation from this byte on
+    std::uint32_t next_look = run.begin; // byte at which cancellation is checked next
     while (at < run.end) {
         if (at >= next_look) {
             stop_if_cancelled();
@@ -137,7 +137,7 @@ ModuleList AstBuilder::modules(ModuleList list, TextRange run) {
         case CharacterClass::Bracket:
             count_bracket(c, scanned_.span(at, at + 1));
             break;
-        case CharacterClass::Question: // begins a name: the scanner reads a lone `?` apart
+        case CharacterClass::Question: // begins a name: a run has no lone `?`
             at = name_end = push_sense({at, run.end});
             continue;
         case CharacterClass::Symbol:

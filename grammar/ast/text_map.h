@@ -44,7 +44,7 @@ private:
 
     std::string_view source_;
     std::string text_;
-    std::uint32_t consumed_ = 0; // number of bytes of source_ that are in text()
+    std::uint32_t consumed_ = 0; // number of bytes of source_ copied or replaced so far
     ChunkedVector<Edit> edits_;
     // Last result of edits_ending_by(), a start for the next search: offsets mostly ascend.
     mutable std::size_t hint_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Cancellation of parsing, checking and compiling. The loops of these steps that may be long call
-// stop_if_cancelled(), also where they know only a text or an expression; so the flag belongs to
-// the thread, and no function passes it on.
+// Cancellation of parsing, checking and compiling. Long loops of these steps call
+// stop_if_cancelled(). Many functions with such loops get only a text or an expression, so the flag
+// is a variable of the thread, not a parameter.
 #pragma once
 
 #include <atomic>

@@ -159,7 +159,7 @@ private:
     std::vector<std::unique_ptr<std::byte[]>> blocks_;
     std::size_t size_ = 0;
     std::size_t capacity_ = 0; // elements for which there is memory
-    std::size_t released_ = 0; // count of first blocks whose memory is free
+    std::size_t released_ = 0; // number of leading blocks that are freed
 };
 
 } // namespace lsys

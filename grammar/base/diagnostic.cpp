@@ -189,7 +189,7 @@ std::optional<std::string_view> nearest_name(std::string_view wanted,
         if (equals_without_case(wanted, candidate)) {
             return candidate;
         }
-        // Only a nearer name than the best one matters, and most names are farther by their bound.
+        // Skips names no nearer than the best so far; for most, lower_bound() already shows it.
         const std::size_t farthest = std::min(limit, best_distance - 1);
         if (longer > kMaxLength || edits.lower_bound(candidate) > farthest) {
             continue;

@@ -37,7 +37,7 @@ public:
 
 private:
     std::map<DiagnosticCode, MessageLevel> codes_;
-    // Levels of warnings and of notes whose code has no level of its own; unset: they have none.
+    // Levels of warnings and of notes whose code has no level of its own; unset: usual severity.
     std::optional<MessageLevel> warnings_;
     std::optional<MessageLevel> notes_;
 };

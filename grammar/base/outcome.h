@@ -32,7 +32,7 @@ struct Message {
     enum class Kind : std::uint8_t {
         Diagnostics, // diagnostics whose places are in `sources`
         Error,       // failure of the environment
-        Help,        // advice for the error before the message
+        Help,        // advice on the error message before this one
         Info,        // about the result
         Detail,      // about the work, for verbose output
     };

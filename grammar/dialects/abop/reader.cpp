@@ -167,8 +167,8 @@ public:
         return std::move(file_);
     }
 
-    /// One past the line with the `}` of a block of C statements that begins at `at`: a line `{`, or
-    /// a label of cpfg and `{`. npos if there is no block.
+    /// One past the line with the `}` of a block of C statements that begins at `at`: a line `{`,
+    /// or a label of cpfg and `{`. npos if there is no block.
     std::size_t end_of_statements(std::string_view text, std::size_t at) {
         const std::string_view line =
             trimmed(text.substr(at, std::min(text.find('\n', at), text.size()) - at), kBlanks);
@@ -426,7 +426,7 @@ private:
         }
     }
 
-    /// Reads `rules: (A -> AB), (B -> A)`, and lists that need no translation.
+    /// Reads `rules: (A -> AB), (B -> A)`; skips lists without rules, such as `variables: A, B`.
     bool read_heading(SourceSpan line, const std::string& name, std::size_t end, bool has_arrow) {
         const auto* const found = std::find(kHeadings.begin(), kHeadings.end(), name);
         const bool is_list = found != kHeadings.end();

@@ -26,7 +26,7 @@ bool is_blank(char c) {
     return is_one_of(c, " \t\r\n");
 }
 
-/// Whether the text after a `//` reads as a comment: it has a word of three small letters.
+/// Whether the text after a `//` reads as a comment: it has three small letters in a row.
 bool is_comment_text(std::string_view text) {
     constexpr std::size_t kMaxRead = 200;
     std::size_t letters = 0;

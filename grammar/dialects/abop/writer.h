@@ -43,12 +43,12 @@ private:
     [[nodiscard]] SourceSpan trimmed_part(std::size_t begin, std::size_t end) const;
     void report(SourceSpan place, const std::string& message);
 
-    /// Sets long_names_: a predecessor of several letters and digits is one symbol wherever the
-    /// text has it, the longest first.
+    /// Sets long_names_: a predecessor of several letters and digits is one symbol wherever it
+    /// occurs. If several such symbols begin at one place, the longest is read.
     void find_long_names();
     /// Writes `before` and the value of a setting; nothing if the file has no such setting.
     void write_setting(AbopKey key, std::string_view before);
-    /// Whether the text has a symbol that changes widths, or a comment with its character.
+    /// Whether the text, with its comments, has the character of a symbol that changes widths.
     [[nodiscard]] bool sets_widths() const;
     /// Whether the left side of a rule is one symbol that rules may replace; reports others.
     [[nodiscard]] bool check_predecessor(const AbopRule& rule);
@@ -94,10 +94,10 @@ private:
     std::set<std::string> labels_;                   // names in use by productions
     std::set<std::string, std::less<>> formals_;     // formals of the rule that is being written
     std::map<std::size_t, Parentheses> parentheses_; // parentheses of expressions, by offset
-    std::set<std::size_t> range_ends_;               // `)` of random numbers
+    std::set<std::size_t> range_ends_;               // offsets of `)` that end random ranges
     std::optional<SourceSpan> sphere_;               // the first `@O(d)`
     std::optional<SourceSpan> reported_head_;        // the last head with a reported mistake
-    // Settings whose values are being written in place of their names, one within another.
+    // Nesting depth of settings whose values are being written in place of their names.
     std::uint32_t depth_ = 0;
 };
 

@@ -114,7 +114,7 @@ private:
                 continue;
             }
             enqueue(modules[i]);
-            // Beyond the stored messages, one is counted per module.
+            // If no more messages are stored, counts one per module, not one per rule.
             if (context_.diagnostics.admits(DiagnosticCode::ParameterStays)) {
                 for (const std::size_t rule : matching_rules(modules, i)) {
                     note(rules_[rule], modules[i]);

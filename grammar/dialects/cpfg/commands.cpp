@@ -75,8 +75,8 @@ private:
         }
     }
 
-    /// Removes productions, originals and copies, that match a command which the axiom never leads
-    /// to. If an original and all its copies do, the original stays, so that a warning reports it.
+    /// Removes productions that match a command which no word derived from the axiom contains. If
+    /// an original and all its copies would go, the original stays, so that a warning reports it.
     void remove_unused(std::vector<CpfgProduction>& all,
                        const std::vector<std::size_t>& originals) const {
         std::set<Command> written;
@@ -118,7 +118,7 @@ private:
     }
 
     /// Whether a production of the stage may rewrite letter `at` of a command. When cpfg interprets
-    /// a word, its `@` takes the letters after it, so that a homomorphism does not see them.
+    /// a word, it reads a command as a whole, so that a homomorphism matches only its `@`.
     static bool may_rewrite(Stage stage, std::size_t at) {
         return stage != Stage::Interpret || at == 0;
     }
@@ -161,8 +161,8 @@ private:
         }
     }
 
-    /// Adds copies in which a context has a command in place of its last letter. The letters before
-    /// it must be ignored, or outside of the context.
+    /// Adds copies in which a command replaces its own last letter in a context. The other letters
+    /// of the command must be ignored in contexts, or lie beyond the context.
     void add_contexts(std::vector<CpfgProduction>& copies, Modules CpfgProduction::*context) {
         const bool is_left = context == &CpfgProduction::left;
         const std::size_t count = (copies.front().*context).size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Commands of several letters: `@o(r)`, `@Gs`. The scanner reads one as one module, because .lsys
-// draws it as one. In cpfg it is a module for each letter, so a production of `o(r)` rewrites the
+// Commands of several letters: `@o(r)`, `@Gs`. The scanner reads each command as one module, as in
+// .lsys. In cpfg each letter of a command is a module, so a production of `o(r)` rewrites the
 // second half of `@o(r)`.
 #pragma once
 

@@ -32,8 +32,8 @@ public:
     /// Begins a production with its formals and without variables. `stage` is the stage of the
     /// .lsys production to be written.
     void begin(std::set<std::string> formals, Stage stage);
-    /// Turns the random numbers of the production into parameters of its module, numbered from
-    /// `first`.
+    /// Makes the random numbers of the production parameters of the intermediate module of its
+    /// group (writer.h), numbered from `first`.
     void bind_draws(std::uint32_t first);
     /// Defines a variable of the production.
     void let(const std::string& name, ForeignId value) { variables_[name] = value; }
@@ -43,7 +43,7 @@ public:
     [[nodiscard]] ForeignId term(ForeignId expression);
     /// Count of random numbers of the production so far.
     [[nodiscard]] std::uint32_t draws() const { return draws_; }
-    /// Index of the first local value that is not a constant.
+    /// Index in ForeignExpressions::locals() of the first local value that is not a constant.
     [[nodiscard]] std::size_t end_of_constants() const { return end_of_constants_; }
     /// Writes the arrays and functions that expressions read.
     void write_functions(Translation& out, SourceSpan place) const;
@@ -54,7 +54,7 @@ public:
     void warn_left_out(SourceSpan span, const std::string& what, const std::string& message);
 
 private:
-    using Variables = std::map<std::string, ForeignId>; // by name: a leaf node
+    using Variables = std::map<std::string, ForeignId>; // value per name: a leaf node
     /// A file of numbers, opened by `fopen` in `Start:`.
     struct DataFile {
         std::string text;
@@ -98,10 +98,10 @@ private:
     /// Assigns a value to a variable; adds a local value unless the value already has a name.
     void assign(const std::string& variable, ForeignId value, SourceSpan span);
     void run(const CpfgStatement& statement);
-    /// Runs an `if`; a test that is not known becomes an if() of each variable that a side assigns.
+    /// Runs an `if`. If its test is not known, each variable that a block assigns becomes an if().
     void branch(const CpfgStatement& statement);
-    /// Runs the block as often as cpfg would. The test must be known before the word is derived in
-    /// each round.
+    /// Runs the block as often as cpfg would. In each round, the test must have a value that is
+    /// known before the word is derived.
     void loop(const CpfgStatement& statement);
     void assign_element(const CpfgStatement& statement);
     void set_element(const ForeignNode& target, ForeignId value, SourceSpan span);
@@ -120,7 +120,7 @@ private:
     /// Adds the variables that the statements assign to changed_globals_.
     void collect_changed_globals(const std::vector<int>& statements);
     /// Classifies the variables that the blocks of a step (`StartEach:`, `EndEach:`) assign:
-    /// incremented by each step, assigned anew by each step, or unknown. Then writes the calls of
+    /// incremented by each step, assigned anew by each step, or unknown. Then runs the calls in
     /// these blocks.
     void classify_changed_globals();
     /// Number of assignments to the variable `to` in the statements and in their blocks.

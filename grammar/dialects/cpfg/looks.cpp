@@ -288,7 +288,7 @@ private:
         looks_.textures.push_back(std::move(texture));
     }
 
-    /// The widths that the word sets are scaled with the plant, the initial one is not.
+    /// Reads the scale of the plant. It scales widths that the word sets, not the initial width.
     void read_scale(const ViewLine& line) {
         const std::optional<double> scale = number_of(line);
         if (!scale || *scale == 1.0 || *scale == 0.0) { // cpfg takes 0 as 1

@@ -87,9 +87,9 @@ private:
                !may_stay(stage, modules);
     }
 
-    /// Whether no other production of the stage may apply to the modules. Before a production of
-    /// the sequence that always holds, none may match the first module alone, or more or fewer
-    /// modules from it on; without such a production, none may begin with any of the modules.
+    /// Whether only productions of the sequence can apply to it. Up to its first production that
+    /// always holds, no other may match its beginning, or it and modules behind it. If none always
+    /// holds, the stage must be Interpret, and no other may begin with a module of the sequence.
     [[nodiscard]] bool is_first(Stage stage, const Modules& modules) {
         bool always = false;      // a production of the whole sequence always holds
         bool parts_alone = false; // another production begins with a module of the sequence

@@ -226,8 +226,8 @@ std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t side
         std::ranges::reverse(points); // u of texture coordinates falls along a contour in cpfg
     }
     for (CurvePoint& point : points) {
-        // x of cpfg goes along its up, which is -U, and y to the right; they are relative to the
-        // radius.
+        // x of cpfg points along its up vector, -U of .lsys, and y to the right. Both are relative
+        // to the radius; coordinates of .lsys are relative to the width.
         point = {0.5 * point.y, -0.5 * point.x};
     }
     const bool has_extent = std::ranges::any_of(points, [&](const CurvePoint& point) {

@@ -23,8 +23,8 @@ struct CpfgStatement {
     CpfgStatementKind kind = CpfgStatementKind::Call;
     ForeignId target = kNoForeign;   // Assign: a Name or Index. Array: an Index
     ForeignId value = kNoForeign;    // Assign, Call; the condition of If and Loop
-    std::vector<int> block{};        // indices of the statements of If and Loop
-    std::vector<int> otherwise{};    // indices of the statements after the `else` of an If
+    std::vector<int> block{};        // If, Loop: indices in CpfgSession::statements
+    std::vector<int> otherwise{};    // If: indices of the statements after the `else`
     std::vector<ForeignId> values{}; // Array: initial values
     bool tests_last = false;         // Loop: do { block } while (value);
     SourceSpan span{};
@@ -44,9 +44,9 @@ struct CpfgProduction {
     std::vector<CpfgModule> left;
     std::vector<CpfgModule> predecessor;
     std::vector<CpfgModule> right;
-    std::vector<int> before;          // indices of the statements before the condition
+    std::vector<int> before;          // indices in CpfgSession::statements, before the condition
     ForeignId condition = kNoForeign; // kNoForeign: always holds
-    std::vector<int> after;           // indices of the statements after the condition
+    std::vector<int> after;           // indices in CpfgSession::statements, after the condition
     std::vector<CpfgModule> successor;
     ForeignId weight = kNoForeign;
     SourceSpan span; // place of the predecessor

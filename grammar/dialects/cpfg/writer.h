@@ -3,7 +3,7 @@
 //
 // Conditions of .lsys draw no random numbers. A random number in a cpfg condition therefore becomes
 // a parameter of an intermediate module, which is decomposed at once: `A(x) --> random1(x, {0,
-// 1})`, `random1(x, u) : u < 0.5 --> ...`. All productions of such a predecessor
+// 1})`, `random1(x, u) : u < 0.5 --> ...`. All productions of the predecessor `A(x)`
 // are a group, which shares the module.
 #pragma once
 
@@ -37,7 +37,7 @@ private:
         ForeignId condition = kNoForeign;
         ForeignId weight = kNoForeign;
         std::vector<std::vector<ForeignId>> arguments; // one list per module of the successor
-        std::size_t first_local = 0;                   // index of its first local value
+        std::size_t first_local = 0;                   // its first local value, in tree_.locals()
         std::size_t end_local = 0;                     // one past its last local value
         std::uint32_t first_draw = 0; // index of its first random number in its group
         std::uint32_t draws = 0;      // count of its random numbers
@@ -69,7 +69,7 @@ private:
     void read_view_file();
     void write_organs();
     /// Sets `is_whole` of the surfaces on which one picture is stretched over all patches. Call it
-    /// when the textures are read. `commands`: the textures that the turtle sets.
+    /// after the textures have been read. `commands`: the textures that the turtle sets.
     void find_whole_surfaces(const CpfgUses& commands);
     /// Looks for the commands of the model whose effect depends on its view file.
     [[nodiscard]] CpfgUses find_uses() const;
@@ -127,7 +127,7 @@ private:
     [[nodiscard]] std::vector<std::vector<ForeignId>> terms_of(const std::vector<CpfgModule>& list);
     /// Writes a predecessor or context, whose parameters are names.
     void write_pattern(const std::vector<CpfgModule>& list);
-    /// Name of the intermediate module of group `index`, whose parameters are random numbers.
+    /// Name of the intermediate module of the group with key `index` in groups_.
     [[nodiscard]] std::string random_module(std::size_t index) const;
     /// Warns of a weight that is ignored, and of a choice that cpfg makes differently.
     void warn_weight(const CpfgProduction& production);
@@ -138,7 +138,7 @@ private:
                           SourceSpan span);
     void append_names(ForeignId argument, std::vector<std::string>& names) const;
     [[nodiscard]] std::vector<std::string> formals_of(const CpfgProduction& production) const;
-    /// Names of the parameters with the random numbers of a group.
+    /// Names of the parameters that hold the random numbers of a group.
     [[nodiscard]] static std::vector<std::string>
     draw_names(const std::vector<std::string>& formals, std::uint32_t count);
     /// Returns true if the production is chosen at random among others.
@@ -163,7 +163,7 @@ private:
     ForeignId interpret_depth_ = kNoForeign;
     std::vector<std::vector<ForeignId>> axiom_; // arguments per module
     std::vector<Lowered> lowered_;              // one per production
-    // Groups of productions among which a random number chooses; the key is the first production.
+    // Indices of productions among which a random number chooses; the key is the first of them.
     std::map<std::size_t, std::vector<std::size_t>> groups_;
     std::set<Stage> bound_;                        // stages with groups
     std::set<std::string> used_;                   // names of all modules

@@ -70,7 +70,7 @@ LineKind kind_of(std::string_view line) {
     if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
         return rule_kind(line, equals);
     }
-    // A premise has a letter, and no blanks, colons, braces or back quotes as in other formats.
+    // A premise has a letter; blanks, colons, `@`, braces and back quotes show another format.
     constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     const bool fits = line.find_first_of(kLetters) != std::string_view::npos &&
                       line.find(' ') == std::string_view::npos &&

@@ -33,7 +33,7 @@ struct HoudiniRule {
     std::vector<HoudiniModule> successor;
     ForeignId condition = kNoForeign;
     ForeignId probability = kNoForeign;
-    std::uint32_t first_node = 0; // nodes of the line are [first_node, end_node)
+    std::uint32_t first_node = 0; // nodes of the line: [first_node, end_node) of the session
     std::uint32_t end_node = 0;
     SourceSpan span;
     std::vector<std::string_view> formals; // names of parameters of the head, sorted

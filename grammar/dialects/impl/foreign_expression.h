@@ -47,7 +47,7 @@ struct ForeignNode {
     std::vector<ForeignId> parts{}; // operands, arguments or indices
     SourceSpan span{};              // place of the node with its operands
     SourceSpan token{};             // the operator or name
-    std::uint32_t index = 0;        // of a Draw or Local
+    std::uint32_t index = 0;        // Draw: which random number; Local: index in locals()
     std::uint32_t depth = 1;        // set by ForeignExpressions::add()
 };
 

@@ -178,7 +178,7 @@ void translate_l3d(const DialectRow& row, const ParseContext& context, Translati
         translation.put(context.bug_compatible ? "#set random glibc;\n" : "");
     }
     const std::uint32_t generations = write_header(file, context, translation);
-    const bool is_replaced = file.axioms.size() > 1; // by a line that may be a broken rule
+    const bool is_replaced = file.axioms.size() > 1; // the axiom, perhaps by a broken rule
     if (!file.has_end_mark && (!is_replaced || context.bug_compatible)) {
         report_missing_mark(root, context);
     }

@@ -15,7 +15,7 @@ constexpr std::uint32_t kWidestGap = 24;
 /// Maximum columns of a head if its line must be broken; a longer one leaves modules little room.
 constexpr std::uint32_t kLongHead = 50;
 
-/// Whether the parts of the row stand below those of other rows.
+/// Whether the cells of the row can be aligned with those of other rows.
 bool has_columns(const LayoutRow& row) {
     const bool has_cells = row.shape != StatementShape::List && row.shape != StatementShape::Other;
     return has_cells && !row.list_below && !row.has_several_lines && row.column == 0 &&

@@ -99,7 +99,7 @@ bool report_missing_colon(ParseSession& session, std::string_view inserted) {
                            inserted.empty() ? "the production lacks a `:` before this, or earlier"
                                             : "the production lacks a `:` before this");
         if (!inserted.empty()) {
-            // A condition before the `~` may be part of the head.
+            // The head may end with a condition, `A x > 1 ~ 0.5`: then the `:` belongs before it.
             add_fix(diagnostic, "add `:`", {place.file, place.begin, place.begin},
                     std::string(inserted),
                     session.scanned.text[scan.begin] == '*' || has_plain_head(session));

@@ -24,7 +24,7 @@ bool is_foreign(std::string_view line) {
 
 // --- line ends
 
-/// Reports carriage returns alone after which a comment hides statements, and repairs them.
+/// Reports CR line ends if a `//` therefore hides the statements after it; replaces them by LF.
 void repair_line_ends(DraftText& draft) {
     const std::string_view text = draft.text;
     if (text.find('\n') != std::string_view::npos) {

@@ -30,7 +30,7 @@ void StatementRepair::choices() {
         } else if (c == '(') {
             is_inside = true;
             break;
-        } else if (c == '{') { // a range, if it is inside something; else a polygon
+        } else if (c == '{') { // a range within an argument or a value, else a polygon
             range = range == std::string_view::npos ? begin : range;
         } else if (depth == 0 && (c == ',' || c == ':' || c == '=')) {
             const bool compares =

@@ -97,7 +97,7 @@ struct ScanState {
     bool sign_explained = false;     // another message explains the `=` after the key
     bool semicolon_inserted = false;
     bool value_before = false;                         // the last token ends a value
-    bool name_before = false;                          // the last token is a name in an expression
+    bool name_before = false;                          // the last token is a name, not of a module
     NextInLocals next_in_locals = NextInLocals::Value; // next item of Part::Locals
     std::uint32_t statement_begin = 0;
     std::optional<std::uint32_t> colons; // count of `:` in the statement; empty until counted

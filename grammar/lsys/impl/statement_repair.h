@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Repairs of one statement in the notation of other languages, in text that is read as a draft.
+// Repairs of one statement in the notation of other languages, in a DraftText.
 #pragma once
 
 #include "grammar/lsys/impl/draft_pieces.h"

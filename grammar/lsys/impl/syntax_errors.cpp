@@ -248,7 +248,7 @@ void report_expected(ParseSession& session, const Unexpected& error) {
     }
 }
 
-/// Whether a `)` after the current character closes each open bracket.
+/// Whether the text after the current character closes all open brackets.
 bool are_brackets_closed(const ParseSession& session) {
     const ScanState& scan = session.scan;
     std::uint32_t at = scan.end;

@@ -36,8 +36,8 @@ void set_place(SourceSpan span, const SourceMap& sources, Json& object) {
     object["end_byte"] = span.end + skipped;
 }
 
-/// Objects begin with Json::object(): a value without a type that becomes an object does not
-/// survive missing memory (JSON for Modern C++ 3.11).
+/// Each object is made by Json::object(): if memory runs out while a null value becomes an object,
+/// the process crashes (JSON for Modern C++ 3.11).
 Json make_labels(const Diagnostic& diagnostic, const SourceMap& sources) {
     Json labels = Json::array();
     for (const Label& label : diagnostic.labels) {
