@@ -281,7 +281,7 @@ struct Bytecode {
     std::vector<BytecodeMaterial> materials;       // sorted by index
     std::vector<BytecodeEnvironment> environments; // in source order, all kinds
     std::uint32_t stack_depth = 0;                 // max stack depth of any code
-    std::uint32_t local_count = 0;                 // max number of local values' slots of any code
+    std::uint32_t local_count = 0;                 // max number of slots that any code needs
 
     /// The range of productions of a stage.
     [[nodiscard]] TableRange productions_of(Stage stage) const;

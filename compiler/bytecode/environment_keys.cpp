@@ -213,7 +213,7 @@ void append_value(std::string& out, const EnvironmentKey& key, const BytecodeEnv
         break;
     case Form::Plane:
     case Form::Meshes:
-        break; // one key for each surface
+        break; // append_surfaces() writes these keys
     }
 }
 

@@ -27,7 +27,7 @@ enum class EnvironmentKeyForm : std::uint8_t {
 struct EnvironmentKey {
     std::string_view word;
     std::uint32_t kinds = 0; // bits of the kinds that have the key
-    /// Bits of the kinds that need the key; `size`: except with a mesh.
+    /// Bits of the kinds that need the key. A space whose shape is a mesh does not need `size`.
     std::uint32_t required_kinds = 0;
     EnvironmentKeyForm form{};
     // The range of a number, or of each part of a vector.
@@ -36,7 +36,7 @@ struct EnvironmentKey {
     bool above_min = false;  // `min` itself is not allowed
     std::string_view wanted; // completes "`cell` takes ..."; Vector: see wanted_text()
     std::string_view meaning;
-    // The field of the value: one of these, none for Shape, Plane, Meshes and Picture.
+    // The field for the value: one of these is set; none for Shape, Plane, Meshes and Picture.
     float BytecodeEnvironment::*number = nullptr;
     std::uint32_t BytecodeEnvironment::*whole = nullptr;
     std::array<float, 3> BytecodeEnvironment::*vector = nullptr;

@@ -94,8 +94,8 @@ static_assert(kFieldCount<Bytecode> == 24, LSYS_VERSION_MATTERS);
 [[nodiscard]] Result<Bytecode> read_module_file(std::string_view bytes);
 /// Whether the bytes begin with the magic of a .lsb file.
 [[nodiscard]] bool is_module_file(std::string_view bytes);
-/// Writes magic, version, size and checksum before the contents, so that contents changed by a test
-/// pass these checks.
+/// Makes magic, version, size and checksum in the header of `bytes` fit the contents. A test calls
+/// it after it has changed the contents, so that read_module_file() gets as far as the contents.
 void seal_module_file(std::string& bytes);
 
 } // namespace lsys

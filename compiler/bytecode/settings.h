@@ -61,7 +61,7 @@ struct TurtleTraits {
     bool l3d_compatible_surface = false; // sides, defaults and surfaces of the program L3D
     bool box_segments = false;           // segments are rectangular boxes as wide as their width
     bool corners_are_ends = false;       // corners of polygons: each `.` and the end of each step
-    bool organs_branch = false;          // `[` continues an organ; F, ] and the end add no point
+    bool organs_branch = false;          // `[` continues an organ; F, ], end of word add no point
     bool colours_wrap = false;           // the colour after 255 is 0
     float taper = 1.0F;                  // initial tip radius / base radius
     float first_turn = 0.0F;             // initial heading, in degrees to the left of +Y
@@ -76,8 +76,8 @@ struct TurtleTraits {
 /// Tropism: a direction x, y, z and the susceptibility e (docs/language.md section 7).
 using Tropism = std::array<float, 4>;
 
-/// Kinds of tropism in the setting `tropisms`. After turns the heading after a step, Before turns
-/// the heading before a step, Twist turns the up axis before a step. None: an unused row.
+/// Kinds of tropism in the setting `tropisms`. `After` turns the heading after a step, `Before`
+/// turns the heading before a step, `Twist` turns the up axis before a step. `None`: an unused row.
 LSYS_COUNTED_ENUM(TropismKind, None, After, Before, Twist);
 /// A tropism whose strength the word changes (docs/language.md section 7.9).
 struct StepTropism {
@@ -85,7 +85,7 @@ struct StepTropism {
     std::array<float, 3> direction{}; // its length is a factor of the strength
     float strength = 0.0F;            // at the start of the word
     float increment = 0.0F;           // change of the strength by commands without a parameter
-    float angle = 0.0F; // degrees from the direction to the heading that Before turns towards
+    float angle = 0.0F;               // Before: degrees from the direction to the wanted heading
 
     friend bool operator==(const StepTropism&, const StepTropism&) = default;
 };

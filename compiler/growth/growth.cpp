@@ -18,7 +18,7 @@ using analysis::GrowthWalk;
 using analysis::ModuleClasses;
 using analysis::same;
 
-/// Max terms read plus classes listed, over all generations of a listing.
+/// Max number of ClassTerms read plus classes present, summed over all generations of a listing.
 constexpr std::uint64_t kMaxListWork = 5'000'000;
 
 /// The sizes of generations 0, 1, ... up to the current generation of `walk`.

@@ -64,8 +64,8 @@ struct GrowthPrediction {
     GenerationSize last_high;
     /// The first generation from which the word never changes, for any seed; unset if unknown.
     std::optional<std::uint32_t> unchanged_from;
-    /// The module whose answer or sweep in the last listed word decides the counts of the
-    /// generations after it, which are not predicted; else kNoSymbol.
+    /// A sense module or swept module of the last listed word whose new parameters decide the
+    /// counts of later generations, which are therefore not predicted; kNoSymbol if there is none.
     SymbolId depends_on = kNoSymbol;
 };
 

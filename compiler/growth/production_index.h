@@ -62,8 +62,8 @@ private:
     bool depends_on_age_ = false;
 };
 
-/// Per symbol: the number of its first parameters that an answer of an environment or a sweep may
-/// change; all of them in a module that is swept.
+/// Per symbol: how many of its parameters, counted from the first, an answer to a sense module or a
+/// sweep may change; for a swept module, all of them.
 [[nodiscard]] std::vector<std::uint32_t> changed_parameters(const Bytecode& bytecode);
 
 /// Calls visit(code, argument, instructions of the argument) for each stored parameter of a word

@@ -254,7 +254,7 @@ struct Program {
     std::vector<Curve> curves;
     std::vector<ProgramContour> contours;         // in source order
     std::vector<ProgramMaterial> materials;       // in source order, one per colour index
-    std::vector<ProgramEnvironment> environments; // in source order; Symbol::sense numbers them
+    std::vector<ProgramEnvironment> environments; // in source order; Symbol::sense is an index
     std::vector<Production> productions;          // sorted by stage
     std::uint32_t rule_count = 0;                 // rules: productions with equal predecessors
     std::uint32_t context_group_count = 0; // groups: productions of a rule with equal contexts

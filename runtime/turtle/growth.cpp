@@ -47,7 +47,8 @@ struct MovingSegment {
 struct MovingObject {
     Motion motion;
     BeforeAndAfter<float> size{};
-    std::uint32_t old = kNone; // its old organ, with no more points: index in before.objects
+    /// Index in before.objects of the organ that it continues, if that has as many points or fewer.
+    std::uint32_t old = kNone;
 };
 
 struct MovingPolygon {

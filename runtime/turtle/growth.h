@@ -7,7 +7,7 @@
 // Pairs of old and new parts:
 // - A module that is copied draws the same parts again: they correspond one to one.
 // - A module that is rewritten corresponds to its successor. If both draw equally many segments
-//   with equal brackets, these correspond one to one: F(l) -> F(l * r). If the module drew one
+//   at equal bracket depths, these correspond one to one: F(l) -> F(l * r). If the module drew one
 //   segment, the segments of the successor outside of inner brackets begin as pieces of this
 //   segment, in proportion to their lengths: the first, third and fifth F of F -> F[+F]F[-F]F begin
 //   on the old F and stretch. Other segments are new.

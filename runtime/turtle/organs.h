@@ -40,8 +40,8 @@ void for_each_point_of(const Skeleton& skeleton, const PlacedObject& object, con
     }
 }
 
-/// Makes `object`, an object of `from`, one of `to`: copies the points of an organ. Other objects
-/// stay as they are.
+/// Makes `object`, which belongs to `from`, belong to `to`: copies the points of an organ to `to`.
+/// Other objects stay as they are.
 void copy_organ(const Skeleton& from, PlacedObject& object, Skeleton& to);
 
 /// Area in m^2 of one side of an organ drawn flat: sum over its axis of length times mean width.

@@ -75,7 +75,7 @@ struct RadiusTangents {
     float radius_before = 0.0F;
     float part_after = 0.0F;
     float radius_after = 0.0F;
-    bool per_chord = false; // the radius components before the point are relative to the chord
+    bool per_chord = false; // in the piece before the point, radius components are in chords, not m
 };
 
 /// A point of the axis of an organ (docs/language.md section 15), in the frame of its PlacedObject,

@@ -13,7 +13,7 @@ namespace lsys {
 struct SurfaceName {
     std::string_view path;
     float scale = 1.0F;
-    /// Steps of a patch along its columns and rows of control points; 0: those of the file.
+    /// Steps of a patch from row to row and along the rows of control points; 0: those of the file.
     std::uint32_t row_steps = 0;
     std::uint32_t column_steps = 0;
     std::optional<std::uint32_t> texture; // in place of the turtle's; 0: none

@@ -106,7 +106,7 @@ GrowthPowers::advanced_by(const GrowthWalk& walk, const Power& power, std::uint3
 
 void GrowthPowers::advance_to(GrowthWalk& walk, std::uint32_t age) {
     LSYS_CHECK(age >= walk.age(), age, walk.age());
-    // The first power covers a whole period, which begins with the first rule in cyclic rewriting.
+    // A power covers whole periods, and in cyclic rewriting a period begins with the first rule.
     while (walk.age() < age && walk.age() % period_ != 0) {
         walk.advance();
     }

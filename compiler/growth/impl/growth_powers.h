@@ -16,8 +16,8 @@ class GrowthPowers {
 public:
     static constexpr std::size_t kMaxClasses = 48;
 
-    /// Returns nothing if the program has no classes, or more than kMaxClasses classes or cyclic
-    /// rules, or if a generation is not a linear map of the counts.
+    /// Returns nothing if the program has no classes or more than kMaxClasses, if cyclic rewriting
+    /// has more than kMaxClasses rules, or if a generation is not a linear map of the counts.
     [[nodiscard]] static std::optional<GrowthPowers> make(ModuleClasses& classes);
 
     /// Advances the walk to generation `age`. Precondition: age >= walk.age().

@@ -38,8 +38,8 @@ public:
     [[nodiscard]] bool probabilities_known() const { return probabilities_known_; }
     /// Whether no production can change the current word or later words.
     [[nodiscard]] bool is_final();
-    /// A module of the word whose answer or sweep decides how a module of the word is rewritten;
-    /// kNoSymbol if there is none.
+    /// A sense module or swept module of the word whose new parameters decide how a module of the
+    /// word is rewritten; kNoSymbol if there is none.
     [[nodiscard]] SymbolId cause_of_next() const;
     /// Whether a generation is a linear map of the counts. The map may depend on the age only by
     /// the choice of the rule in cyclic rewriting.

@@ -172,7 +172,7 @@ void ModuleClasses::count_word(const WordTemplate& word, CountedWord& out) {
     }
     std::vector<Code> fixed_codes; // without duplicates
     std::size_t next_variable = 0;
-    constexpr std::uint32_t kCodesPerLook = 1U << 14U; // codes between looks at the flag
+    constexpr std::uint32_t kCodesPerLook = 1U << 14U; // codes between checks for cancellation
     for (std::uint32_t i = 0; i < word.codes.count; ++i) {
         if (i % kCodesPerLook == 0) {
             stop_if_cancelled();

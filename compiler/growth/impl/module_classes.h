@@ -154,7 +154,7 @@ private:
                   std::span<const KnownValue> parameters);
     /// The matches of a module over all values of its unknown parameters.
     Matches match_everywhere(SymbolId symbol, std::span<const KnownValue> parameters);
-    /// The outcomes of matches, without ClassExpansion::unchanged. `self`: the class of the module.
+    /// The outcomes of matches. Does not set ClassExpansion::unchanged. `self`: the module's class.
     ClassExpansion
     expand_matches(const Matches& matches, ClassId self, std::span<const KnownValue> parameters);
     /// Stores the outcomes, and the min and max count of each class over them.

@@ -52,8 +52,8 @@ void check_constant(const CheckInput& input,
     }
 }
 
-/// Finds single parameter values for which no production of a module matches, or two: `x > 2` and
-/// `x < 2` both exclude 2, `x >= 2` and `x <= 2` both include it.
+/// Finds single parameter values for which no production or two productions of a module match:
+/// `x > 2` and `x < 2` both exclude 2, `x >= 2` and `x <= 2` both include it.
 class SingleValues {
 public:
     SingleValues(const CheckInput& input, SymbolId symbol, const RuleTable& table)

@@ -98,8 +98,8 @@ private:
         }
     }
 
-    /// Reports productions after an unconditional production that matches in all cases in which
-    /// they match.
+    /// Reports productions that are never used, because an earlier production without condition
+    /// matches wherever they match.
     void check_unconditional(std::span<const std::uint32_t> productions) {
         std::uint32_t unconditional = kNone; // the first production without condition and context
         std::unordered_map<std::uint32_t, std::uint32_t>

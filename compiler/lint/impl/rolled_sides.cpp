@@ -108,7 +108,7 @@ private:
         }
         const Symbol* roll = nullptr;
         bool found_drawing = false;
-        constexpr std::size_t kModulesPerLook = std::size_t{1} << 14U; // looks at the flag
+        constexpr std::size_t kModulesPerLook = std::size_t{1} << 14U; // per cancellation check
         for (std::size_t i = 0; i < count; ++i) {
             if (i % kModulesPerLook == 0) {
                 stop_if_cancelled();

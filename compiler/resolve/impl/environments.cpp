@@ -237,7 +237,8 @@ EnvironmentResolver::Reading EnvironmentResolver::read_entries(const SenseNode& 
                                                fmt::join(environment_keys_of(kind), "`, `")));
         reading.is_complete = false;
     }
-    // A word that is no key is the value of a key that takes a shape or file; a file needs quotes.
+    // After a key that takes a shape or a file, a word that is no key is the value of that key; a
+    // file name without quotes is reported later.
     const auto is_value = [&](const SetValue& word, const KeyedValues& before) {
         const EnvironmentKey* const key = find_environment_key(resolution_.text(before.key));
         return key != nullptr && before.values.count == 0 &&
@@ -256,7 +257,7 @@ EnvironmentResolver::Reading EnvironmentResolver::read_entries(const SenseNode& 
             expressions_.is_constant(written.key)) {
             report_bare_constant(resolution_, DiagnosticCode::BadEnvironment,
                                  {written.span, true, written.key});
-            entries.pop_back(); // the constant stands in place of its value
+            entries.pop_back(); // the key whose value the constant was meant to be
             continue;
         }
         if (!is_known) {

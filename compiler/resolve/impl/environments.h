@@ -43,7 +43,7 @@ private:
     struct Reading {
         EnvironmentKind kind{};
         SourceSpan kind_span;
-        bool is_complete = true; // no unknown key, which may be meant as a missing one
+        bool is_complete = true; // no key is unknown; an unknown one may be a misspelt required key
         std::vector<Entry> entries;
     };
     /// Returns false after reporting a name that the turtle or another #sense has, or that is no
@@ -73,7 +73,7 @@ private:
     SymbolTable& symbols_;
     Suggestions suggestions_;
     std::unordered_map<NameId, SourceSpan> first_; // by name: place in its first #sense
-    /// Index of the environment, by index in Ast::senses.
+    /// Index in Program::environments, by index in Ast::senses.
     std::unordered_map<std::uint32_t, std::uint32_t> numbers_;
     /// Names, with `?`, of the sense modules that need no further report: they are declared, or
     /// reported. All values are true.

@@ -308,7 +308,7 @@ void SetResolver::read_tropism(const SetNode& node, ExpressionResolver& expressi
 
 void SetResolver::read_tropisms(const SetNode& node, ExpressionResolver& expressions) {
     constexpr std::uint32_t kMinNumbers = 3; // x, y, z
-    constexpr std::uint32_t kMaxNumbers = 6; // and strength, increment, angle
+    constexpr std::uint32_t kMaxNumbers = 6; // x, y, z, strength, increment, angle
     const auto kind_at = [&](std::uint32_t index) {
         const SetValue value = resolution_.ast.set_values[node.values.first + index];
         const std::string_view word = value.is_word ? resolution_.text(value.word) : "";

@@ -148,7 +148,7 @@ void ActiveMask::prepare(const Plan& plan, const ContextTables* contexts) {
         }
         return static_cast<std::uint8_t>(kAnyNeighbours << 1 << (at - groups.begin()));
     };
-    std::uint32_t same = 0; // parameters of a module that stores any; kNone: modules differ
+    std::uint32_t same = 0; // parameters of each module that has any; kNone: not all the same
     for (Code code = 0; code < codes; ++code) {
         const Row& row = plan.row(code);
         if (row.stored != 0) {

@@ -93,7 +93,7 @@ public:
 private:
     Tables tables_;
     const Row* rows_ = nullptr;
-    std::uint32_t stored_each_ = 1; // parameters of a module that stores any; 0: modules differ
+    std::uint32_t stored_each_ = 1; // parameters of each module that has any; 0: not all the same
     bool usable_ = false;
     bool has_choices_ = false;
 };

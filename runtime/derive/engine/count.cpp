@@ -83,7 +83,7 @@ CountResult count_active(const Plan& plan,
     const Row* const rows = plan.rows().data();
     const Entry* const entries = plan.entries().data();
     std::array<ActiveBits, ActiveMask::kModules / kBlock> bits; // NOLINT: filled before it is read
-    std::array<std::uint64_t, kBlock> positions{};              // modules that draw
+    std::array<std::uint64_t, kBlock> positions{};              // of modules of Choice rows
     std::array<float, kBlock> units{};
     CountResult result;
     while (begin.index < end) {

@@ -38,8 +38,8 @@ public:
     }
     /// The draw of range number `range`, as u in [0, 1).
     [[nodiscard]] float draw(std::uint32_t range);
-    /// The draw that decides whether branch `branch` of the module's successor is taken. Branches
-    /// draw from blocks of their own, from 2^31 on.
+    /// The draw that decides whether a recorded branch replaces branch `branch` of the module's
+    /// successor (instancing). These draws have blocks of their own, from block 2^31 on.
     [[nodiscard]] float draw_branch(std::uint32_t branch);
 
 private:

@@ -21,7 +21,7 @@ struct OriginRequest {
     const ActiveMask* mask = nullptr; // the mask of WriteRequest
 };
 
-/// Writes origins to `out`; returns the place of the next origin. `records` as in write_modules().
+/// Writes origins to `out`; returns the pointer behind them. `records` as in write_modules().
 /// Precondition: word.origins is not null.
 template <typename C, typename R>
 [[nodiscard]] Origin* trace_origins(const Plan& plan,

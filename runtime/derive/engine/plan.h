@@ -72,7 +72,7 @@ struct Row {
     std::uint32_t parameter_count = 0; // Fixed: parameters written
     std::uint32_t stored = 0;          // parameters of the module in the word
     std::uint32_t constants = kNone;   // folded module: index in Bytecode::constants
-    std::uint32_t source = 0;          // index of a choice (Choice), test list (Tests) or family
+    std::uint32_t source = 0;          // index in ChoiceTables::list, TestTables::lists, families_
     std::uint32_t left_guard = kNone;  // General: index in Plan::guards(); kNone: any neighbour
     std::uint32_t right_guard = kNone;
     RowKind kind = RowKind::Fixed;
@@ -266,7 +266,7 @@ private:
     /// Sets the terms of the parameters, or Entry::general if they have no terms.
     void shape_entry(const Candidate& candidate, Entry& entry);
     void make_batch_program(Candidate& candidate);
-    /// The inputs of the expressions of a candidate that are known.
+    /// The known inputs of the expressions of a candidate.
     [[nodiscard]] ShapeKnowledge knowledge(const Candidate& candidate) const;
     /// Sets the rows of all codes that the family rewrites.
     void activate_family(std::uint32_t family_index);

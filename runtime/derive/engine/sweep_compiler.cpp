@@ -14,8 +14,8 @@ constexpr std::uint64_t kDrawsPerBlock = 4;
 /// A node of this depth is stored, which limits the recursion of load().
 constexpr std::uint32_t kMaxNodeDepth = 64;
 
-/// Operations between two pauses. A compiler that makes no tail calls, as without optimisation,
-/// takes stack for each.
+/// Operations between two pauses. Without tail calls, as in builds without optimisation, each
+/// operation takes stack, which a pause frees by returning to SweepMachine::run().
 constexpr std::uint32_t kOperationsPerPause = 256;
 
 } // namespace

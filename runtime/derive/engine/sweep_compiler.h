@@ -23,8 +23,8 @@ inline constexpr std::uint32_t kSweepLanes = 64;
 struct SweepCode {
     std::vector<SweepOperation> operations;
     std::vector<float> constants; // step(), steps(), the globals, literals
-    /// Blocks of four draws that some production uses. Draw w of block b of a module is read at
-    /// index (4 b + w) * kSweepLanes of kDrawBase.
+    /// Numbers of the blocks of four draws that some production uses. Draw w of block
+    /// draw_blocks[b] is read at index (4 b + w) * kSweepLanes of the array kDrawBase.
     std::vector<std::uint32_t> draw_blocks;
     std::uint32_t slot_count = 0;
     std::uint32_t value_count = 0; // max values of a production

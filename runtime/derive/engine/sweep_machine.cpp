@@ -169,7 +169,7 @@ float range_step(const Operation* at, float result, Bases bases, SweepMachine& m
 }
 float draw_step(const Operation* at, float result, Bases bases, SweepMachine& machine) {
     const float x = operand(bases, at->x);
-    // An invalid draw is a fault if its value is needed, which check_step() finds.
+    // An invalid draw is a fault if its value is needed, which SweepSteps::check() finds.
     const float drawn = is_valid_draw(at->opcode, x, result)
                             ? draw_from(at->opcode, x, result, operand(bases, at->y))
                             : 0.0F;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SweepNeighbours: the modules that a sweep has visited, as contexts see them from the next module.
 // If all contexts are one module, the nearest is enough. Else a list of cells begins at each place:
-// the branches there, then the next module, whose list continues behind it. Only cells that
+// the branches there, then the nearest module, whose list continues behind it. Only cells that
 // a context can reach are kept, so their number depends on the number of open branches, not on the
 // length of the word.
 #pragma once
@@ -29,10 +29,10 @@ public:
         SymbolId symbol = kNoSymbol;       // kNoSymbol: a branch
         std::uint32_t rest = kEnd;         // the list after the module or branch
         std::uint32_t inner = kEnd;        // the list in a branch
-        std::uint32_t module = kEnd;       // of a branch: the next module of its list
+        std::uint32_t module = kEnd;       // of a branch: the first module after it in its list
     };
 
-    /// The next module, on the path that the sweep has come along: kNoSymbol if there is none.
+    /// The nearest module that the sweep has visited on its path. kNoSymbol: none.
     struct Module {
         SymbolId symbol = kNoSymbol;
         const float* parameters = nullptr;

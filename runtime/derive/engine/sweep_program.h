@@ -28,7 +28,7 @@ struct SweepItem {
     std::uint32_t base = 0; // SweepOperand::base of the module's parameters
 };
 
-/// Its size is that of a cache line.
+/// A production of a sweep, in one cache line.
 struct alignas(64) SweepCandidate {
     /// The context: none, one module, or else `context`.
     enum class Context : std::uint8_t { None, Module, Items };
@@ -44,8 +44,8 @@ struct alignas(64) SweepCandidate {
     std::uint32_t group = 0; // candidates of a group have the same context
     float weight = 0.0F;
     std::uint32_t weight_code = kNone; // first operation of a weight that is not constant
-    /// The random choice that begins with this candidate, if its weights are constant and all later
-    /// candidates of the choice match; else empty. Of SweepProgram::outcomes().
+    /// Range of SweepProgram::outcomes(): the random choice that begins with this candidate. Empty
+    /// if a weight of its group is not constant or a later candidate of the group has a condition.
     TableRange outcomes;
 };
 

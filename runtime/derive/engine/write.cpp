@@ -72,7 +72,7 @@ struct MixedRun {
 };
 
 /// Writes the modules of `run` up to the first one with a special entry that is not batched. A free
-/// function like write_general(): fields of Writer stay in registers if no call gets its address.
+/// function like write_general(): fields of a Writer stay in registers if no call gets `this`.
 template <typename C, typename R>
 [[gnu::noinline]] void run_mixed(MixedRun<C, R>& run, Batches& batches) {
     MixedRun<C, R> at = run;

@@ -17,7 +17,7 @@ namespace lsys {
 /// Max arguments of a module that the turtle reads.
 inline constexpr std::uint32_t kTurtleArguments = 4;
 
-/// The texture of an object that has the texture of the turtle.
+/// Action::texture of an object that is drawn with the current texture of the turtle.
 inline constexpr std::uint32_t kTurtleTexture = 0xFFFFFFFFu;
 
 /// Cosine and sine of half an angle, for rotations by quaternions.

@@ -87,7 +87,7 @@ std::vector<std::uint32_t> axis_of(std::span<const std::uint32_t> items, const S
     return axis;
 }
 
-/// Whether both lists have equally many segments with the same brackets around them.
+/// Whether both lists have equally many segments, with equal orders relative to the first segment.
 bool are_alike(std::span<const std::uint32_t> old_items,
                std::span<const std::uint32_t> new_items,
                const Skeleton& before,

@@ -134,7 +134,7 @@ bool Turtle::State::close_organ(OrganEnd place) {
     return true;
 }
 
-/// Ends the organs that are open at the end of the word, each at the place of its branch.
+/// Ends the organs that are open at the end of the word, each in the turtle's state of its branch.
 bool Turtle::State::close_all_organs() {
     std::size_t depth = stack.size();
     while (!organs.open.empty()) {
