@@ -62,7 +62,7 @@ public:
         write_answer(static_cast<double>(others), direction, answer);
     }
 
-    /// Bytes of a CrowdedPlaces of `places` places.
+    /// Bytes of a CrowdedPlaces of `places` places whose totals have `words` words each.
     [[nodiscard]] static std::uint64_t bytes(std::size_t places, std::size_t words) {
         return std::uint64_t{places} * (kPointTreeBytes + 8 * words);
     }

@@ -75,7 +75,7 @@ struct EnvironmentFiles {
 /// The reason why an environment has no answers.
 struct EnvironmentFailure {
     Stop stop = Stop::Diagnosed;  // or OutOfMemory, Limit, Cancelled
-    std::string text;             // Diagnosed: the reason, "its program has ended"
+    std::string text;             // Diagnosed: the reason, such as "its program has ended"
     std::string help;             // advice for the author, or empty
     std::uint64_t bytes = 0;      // Limit: memory that the answers would take
     std::size_t failed_place = 0; // Diagnosed: index of the place that has no answer

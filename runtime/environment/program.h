@@ -26,7 +26,7 @@ namespace lsys {
 /// The reason why a program has sent no line.
 struct ProgramFailure {
     Stop stop = Stop::Diagnosed; // or Cancelled, OutOfMemory
-    std::string text;            // "its program has ended with exit status 1"
+    std::string text;            // the reason, such as "its program has ended with exit status 1"
     std::string messages;        // the last lines of the program's standard error
 };
 

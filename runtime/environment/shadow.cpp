@@ -51,7 +51,7 @@ private:
         auto failure = tiles.build(places.size(), [&](std::size_t i) {
             const Vector3& at = places[i].position;
             // The axis of the plant is in the middle of a column. Rounding errors of a height that
-            // is a multiple of the cell do not move it to the voxel below.
+            // is a multiple of the cell do not move the place to the voxel below.
             return Vector3{fast_floor(at[0] / cell + 0.5), fast_floor(at[1] / cell + 0x1p-20),
                            fast_floor(at[2] / cell + 0.5)};
         });

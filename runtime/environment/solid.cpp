@@ -10,7 +10,7 @@
 // equal distances the first is taken, planes before meshes. Triangles, of one mesh or of several,
 // are compared by squared distances. A distance to a mesh of at most 2^-48 times the greatest
 // magnitude of a coordinate, of the place or of a corner of a triangle, is 0: the nearest point has
-// rounding errors of that order, so that places on a face would not be on the surface.
+// rounding errors of that order, which would move places on a face off the surface.
 #include "grammar/base/contract.h"
 #include "runtime/environment/environment.h"
 #include "runtime/environment/impl/input_checks.h"
@@ -26,7 +26,7 @@ namespace lsys {
 
 namespace {
 
-/// Max distance to a mesh of places on its surface, over the greatest magnitude of a coordinate.
+/// Max distance at which a place is on a mesh, relative to the greatest magnitude of a coordinate.
 constexpr double kOnSurface = 0x1p-48;
 
 double magnitude_of(const Vector3& point) {

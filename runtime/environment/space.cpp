@@ -128,8 +128,8 @@ std::optional<EnvironmentFailure> SpaceEnvironment::draw(std::uint64_t seed) {
     if (auto failure = prepare_crown()) {
         return failure;
     }
-    // Bytes per marker: the marker, and while a word is sensed its index in spatial order and twice
-    // the index of its place, in the order of markers and sorted by places.
+    // Bytes per marker: the marker and, while a word is sensed, an element of each of three arrays:
+    // the markers in spatial order, the place of each marker, and the markers sorted by place.
     const std::uint64_t bytes =
         std::uint64_t{declared_.count} * (sizeof(Marker) + 3 * sizeof(std::uint32_t));
     if (bytes > context_.max_bytes) {

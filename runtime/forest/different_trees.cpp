@@ -130,7 +130,7 @@ std::uint64_t count_different(std::vector<TreeShape>& shapes) {
     };
     std::sort(shapes.begin(), shapes.end(), before);
     std::uint64_t count = 0;
-    std::vector<std::size_t> near; // indices of shapes that may equal this or a later one
+    std::vector<std::size_t> near; // indices of shapes that may equal shape i or a later one
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const TreeShape& shape = shapes[i];
         const auto& s = shape.moments.second;

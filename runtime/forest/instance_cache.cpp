@@ -260,8 +260,8 @@ private:
     std::vector<Active> active_;
     std::size_t suspended_ = 0; // number of suspended instances, the first ones in active_
     std::unordered_map<std::string, std::uint32_t> slot_of_key_;
-    // By branch id and index of a value in the key: absolute value in the first recorded branch, of
-    // which CacheOptions::tolerance is a fraction.
+    // By branch id and index of a value in the key: absolute value in the first recorded branch;
+    // this value times CacheOptions::tolerance is the rounding step.
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> scales_;
     std::string key_;        // bytes of the key that slot_of() is making
     std::uint32_t part_ = 0; // index of the next real value in this key

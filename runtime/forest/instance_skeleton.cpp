@@ -120,7 +120,7 @@ Skeleton skeleton_of(const InstanceCache& cache, const Instance& instance) {
     skeleton.box_segments = cache_skeleton.box_segments;
     skeleton.leaf_droop = cache_skeleton.leaf_droop;
     skeleton.tube_shape = cache_skeleton.tube_shape;
-    // By number in the cache of the first segment of each range: new number of this segment.
+    // For each range: its first segment's number in the cache, and the new number of this segment.
     std::map<std::uint32_t, std::uint32_t> shifts;
     const auto number_of = [&](std::uint32_t parent) {
         const auto after = shifts.upper_bound(parent);

@@ -31,8 +31,8 @@ public:
     /// `cache` must outlive the object.
     explicit PartSkeletons(const InstanceCache& cache);
 
-    /// An instance without the instances at its exits. Segments that begin in another instance get
-    /// a closed surface.
+    /// An instance without the instances at its exits. Segments whose parent is in another instance
+    /// get a closed base.
     [[nodiscard]] Skeleton alone(std::uint32_t instance) const;
     /// An instance with stand-ins at its exits, with stand-ins at the exits of these, and so on.
     [[nodiscard]] Skeleton whole(std::uint32_t instance) const;

@@ -15,7 +15,7 @@ struct Tree {
     glm::vec3 position{};     // m, where the turtle starts
     float yaw = 0.0F;         // radians about +Y; see surroundings_of()
     float scale = 1.0F;       // factor of all lengths
-    std::uint32_t number = 0; // number in the forest; all choices of the tree are drawn by it
+    std::uint32_t number = 0; // number in the forest, on which all random choices depend
     /// Index in Forest::species.
     std::uint16_t species = 0;
     std::uint16_t age = 0; // years; 0: the tree is at the last stage of its species

@@ -79,7 +79,7 @@ public:
 private:
     std::vector<double> heights_;
     const Forest& forest_;
-    std::vector<HeightTable> tables_; // by species, of its last stage; empty: it has no height
+    std::vector<HeightTable> tables_; // by species, of its last stage; empty if heights_ is 0
 };
 
 /// Gives all trees of a forest their heights, like TreeSizer. Returns the first species with a flat

@@ -149,7 +149,7 @@ struct UserMesh {
     std::vector<glm::vec2> texture_coordinates;
     std::vector<std::uint32_t> indices;
     std::vector<ObjName> libraries; // its material files (mtllib)
-    std::vector<ObjName> materials; // materials of its faces, in order of first use; no name: none
+    std::vector<ObjName> materials; // of its faces, in order of first use; empty name: no material
     std::shared_ptr<const Texture> picture;         // picture of the whole mesh; may be null
     std::shared_ptr<const Texture> normal_map;      // normals of the whole mesh; may be null
     std::vector<std::string> files;                 // files tried to find the picture

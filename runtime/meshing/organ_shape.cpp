@@ -141,7 +141,7 @@ private:
         const glm::dvec3 normal = begins ? -ring.heading : ring.heading;
         const double scale = 1.0 / ring.circumference;
         const auto first = static_cast<std::uint32_t>(part.positions.size());
-        std::vector<glm::dvec2> flat; // counter-clockwise seen from outside, or clockwise
+        std::vector<glm::dvec2> flat; // the outline seen from outside; clockwise if `turned`
         glm::dvec2 middle(0.0);
         glm::dvec3 centre(0.0);
         for (const std::uint32_t column : outline_of(sheet.layout)) {

@@ -106,7 +106,7 @@ private:
         return false;
     }
 
-    /// The next word of line_, which it takes away; empty at the end of the line.
+    /// Removes the next word from line_ and returns it; empty at the end of the line.
     std::string_view next_word() {
         constexpr std::string_view kBlanks = " \t\r";
         line_.remove_prefix(std::min(line_.find_first_not_of(kBlanks), line_.size()));

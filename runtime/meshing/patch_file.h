@@ -16,7 +16,7 @@ namespace lsys {
 /// Reads the text of a surface file. The mesh has the contact point at the origin, the heading of
 /// the file along +Y and its up direction along -Z, which are the axes H and -U of the turtle: up
 /// of cpfg is left x heading, and turns to the ground where a branch bends down. It is scaled by
-/// 1 / SIZE. `name`: scale, steps and texture coordinates. Colours and names of neighbours are not
+/// 1 / SIZE. `name` sets scale, steps, texture coordinates. Colours and names of neighbours are not
 /// read; patches that share an edge are smooth across it. Uses at most `max_bytes` beside `text`.
 [[nodiscard]] Result<UserMesh>
 read_patches(std::string_view text, const SurfaceName& name, std::uint64_t max_bytes);

@@ -60,7 +60,7 @@ class Noise {
 public:
     Noise(std::uint32_t columns, std::uint32_t rows, std::uint32_t layer) {
         std::vector<float> points(columns);
-        std::vector<float> lines(std::size_t{rows} * kSize); // lines of the lattice, all columns
+        std::vector<float> lines(std::size_t{rows} * kSize); // lattice rows, at each texel column
         for (std::uint32_t line = 0; line < rows; ++line) {
             for (std::uint32_t i = 0; i < columns; ++i) {
                 points[i] = lattice(i, line, layer);

@@ -72,7 +72,7 @@ private:
     struct Patch {
         std::uint32_t end = 0;    // end of its indices, counted within the block
         std::uint32_t first = 0;  // first vertex of the ring, or of the lowest ring of bands
-        std::uint32_t second = 0; // first vertex of the other ring or of the last ring; the point
+        std::uint32_t second = 0; // first vertex of the other or last ring; of a fan: the point
         Shape shape = Shape::Bands;
         std::uint8_t sides = 0;
         std::uint8_t second_sides = 0;

@@ -76,14 +76,14 @@ constexpr double kSettleStep = 1e6;      // s, step of settle(), so long that in
 constexpr double kRestFriction = 0.03;
 constexpr double kRememberedShare = 0.9;
 // In a stage after the first, with at least kManyBodies bodies, main branches already lie on the
-// ground. The plant is then at rest when friction with these coefficients would stop it, compared
-// over the last kStageRounds rounds. A long curve falls into a heap that continues to roll and
-// slide a little; real friction (kFriction) would stop this motion.
+// ground. The plant is then at rest when it lost less energy in the last kStageRounds rounds than
+// friction with these coefficients would take. A long curve falls into a heap that continues to
+// roll and slide a little; real friction (kFriction) would stop this motion.
 constexpr std::size_t kManyBodies = 10'000;
 constexpr double kStageFriction = 0.1;      // in all stages but the last
 constexpr double kLastStageFriction = 0.25; // in the last stage
 constexpr std::size_t kStageRounds = 3;
-// A plant counts as falling, so that settling in stages is faster, if one of the first
+// A plant counts as falling, and is then settled in stages, which is faster, if one of the first
 // kFallingRounds rounds turns a body by kFallingTurn, or if the plant is not at rest after these
 // rounds.
 constexpr double kFallingTurn = 0.3; // rad

@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::size_t words() const { return words_; }
     /// Adds a coordinate of one of the places, times 2^doublings, to `total`, an array of words().
     void add(std::uint64_t* total, double coordinate, unsigned doublings = 0) const;
-    /// Subtracts a coordinate `times` times, at most 2^32, from a total of as many coordinates.
+    /// Subtracts a coordinate `times` times from a total of `times` coordinates, at most 2^32.
     void subtract(std::uint64_t* total, double coordinate, std::uint64_t times) const;
     /// Adds a total to another.
     void add(std::uint64_t* total, const std::uint64_t* other) const;

@@ -39,7 +39,7 @@ public:
     /// has an extent, or `length` is not 0. Near the limits of binary64 the scale is 0; is_bounded
     /// is then false for all places.
     explicit Frame(const PointBox& box, double length = 0.0) {
-        double extent = length; // half of the longest edge of the box, if that is more
+        double extent = length; // becomes the max of `length` and half of the box's longest edge
         for (std::size_t axis = 0; axis < 3; ++axis) {
             origin_[axis] = 0.5 * box.low[axis] + 0.5 * box.high[axis];
             extent = std::max(extent, 0.5 * box.high[axis] - 0.5 * box.low[axis]);

@@ -46,7 +46,7 @@ struct CellArea {
 /// The entry of a LeafAreaTable for one cell.
 struct CellContent {
     double opacity = 0.0; // opacity to light, per metre of path
-    /// The cell is in an empty block of 2^empty_bits cells along each axis, aligned to
+    /// If above 0: the cell is in an empty block of 2^empty_bits cells along each axis, aligned to
     /// CellBox::low.
     std::uint32_t empty_bits = 0;
 };

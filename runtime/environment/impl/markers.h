@@ -57,8 +57,8 @@ struct MarkerKey {
 /// Max points that are tried for one marker.
 inline constexpr std::uint64_t kMarkerTries = 64;
 
-/// The first point inside `shape` of the points 64 i ... 64 i + 63 for each marker i below `count`;
-/// markers without one are missing. By ascending index. No value when cancelled.
+/// For each marker i below `count`, the first of the points 64 i ... 64 i + 63 that is in `shape`;
+/// markers without such a point are missing. By ascending index. No value when cancelled.
 [[nodiscard]] std::optional<LargeVector<Marker>> draw_markers(const MarkerShape& shape,
                                                               std::uint32_t count,
                                                               const MarkerKey& key,

@@ -70,7 +70,7 @@ private:
     }
     /// Sets the cylinder of a child in its parent node.
     void fill_cylinder(const WideChild& child);
-    /// The axis of the cylinder of a child: the mean normal of its triangles, turned to one side.
+    /// The cylinder axis of a child: the mean of its triangles' normals, all turned to one side.
     [[nodiscard]] Vector3 axis_of(const WideChild& child) const;
     /// A middle for the cylinder of `child`: about equally far from the outermost corners, both
     /// along the axis and away from it.

@@ -14,7 +14,7 @@
 
 namespace lsys {
 
-/// An occupied voxel of a row; x and z count from the corner of the tables.
+/// An occupied voxel of a slice; x and z count from the corner of the tables.
 struct ShadowSource {
     std::int32_t x = 0;
     std::int32_t z = 0;
@@ -79,9 +79,9 @@ private:
     std::vector<std::uint8_t> used_; // lines with sources
 };
 
-/// Counts of `layer` for the voxel at (x, z), from three tables: of the row below the row that
-/// shades the voxel in this layer, of that row, and of the row above it. The places of the tables
-/// are fewer than 2^29.
+/// Counts of `layer` for the voxel at (x, z), from three tables: of the slice whose places shade
+/// the voxel with this layer, preceded by the slice below it and followed by the slice above it.
+/// The places of the tables are fewer than 2^29.
 [[nodiscard]] LayerCounts count_by_tables(const std::array<const SummedAreaTable*, 3>& tables,
                                           std::int64_t x,
                                           std::int64_t z,

@@ -222,10 +222,10 @@ void ShadowRun::count_with_tables() {
     const auto width = static_cast<std::size_t>(width_);
     const auto depth = static_cast<std::size_t>(depth_);
     empty_table_.build(width, depth, {});
-    std::size_t row = 0;     // the first row that is not below y - 1
-    std::size_t built = 0;   // tables of the rows before it have been built
-    std::size_t active = 0;  // the first target that row y shades
-    std::size_t not_yet = 0; // the first target above row y
+    std::size_t row = 0;     // index in rows_ of the first row at y - 1 or above
+    std::size_t built = 0;   // index in rows_: the tables of all rows before it are built
+    std::size_t active = 0;  // index of the first target that places at y may shade
+    std::size_t not_yet = 0; // index of the first target above y
     std::int64_t y = targets_.front().y;
     while (active < targets_.size()) {
         while (not_yet < targets_.size() && targets_[not_yet].y <= y) {
@@ -284,7 +284,7 @@ void ShadowRun::count_pairs() {
     }
 }
 
-/// The rows also contain the target itself.
+/// Compares the target with the sources of these rows, which include the target itself.
 void ShadowRun::count_pairs_of(std::size_t index, std::size_t first_row, std::size_t end_row) {
     const TileVoxel& target = targets_[index];
     const std::int64_t last = layers_.last();

@@ -29,13 +29,13 @@ public:
         : tiles_(tiles), layers_(layers), edge_(std::int32_t{1} << tile_bits),
           reach_(static_cast<std::int32_t>(layers.last()) + 1) {}
 
-    /// Voxels `begin` ... `end` - 1 belong to `tile`. Runs of one object are in ascending order.
+    /// Voxels `begin` ... `end` - 1 belong to `tile`. Call it for ascending tiles and voxels.
     /// The result is valid until the next run.
     [[nodiscard]] std::span<const ShadowSum>
     evaluate(std::size_t tile, std::size_t begin, std::size_t end);
 
 private:
-    /// A row of sources with the same y.
+    /// A row: the sources of one slice, which have the same y.
     struct Row {
         std::int64_t y = 0;
         std::size_t first = 0; // index in sources_
@@ -88,10 +88,10 @@ private:
     /// Rows of sources_, and one row more, whose `first` is sources_.size().
     std::vector<Row> rows_;
     std::vector<Neighbour> neighbours_;
-    /// Tiles from which find_neighbours() searches the tiles at x - 1, x and x + 1.
+    /// Tiles at which find_neighbours() begins to search the tiles at x - 1, x and x + 1.
     std::array<std::size_t, 3> tile_cursors_{};
     bool has_cursors_ = false;              // find_neighbours() has set tile_cursors_
-    std::array<SummedAreaTable, 3> tables_; // of three rows, by number of the row modulo 3
+    std::array<SummedAreaTable, 3> tables_; // of three rows, by index in rows_ modulo 3
     SummedAreaTable empty_table_;           // for rows without sources
     std::vector<LayerCounts> pair_counts_;  // counts by layer
     std::vector<ShadowSum> sums_;           // by target

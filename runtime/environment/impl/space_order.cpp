@@ -11,7 +11,7 @@ namespace lsys {
 
 namespace {
 
-constexpr std::uint32_t kCellBits = 11;  // along an axis: keys take three passes of the sort
+constexpr std::uint32_t kCellBits = 11;  // per axis; so a key is sorted by three digits of 11 bits
 constexpr std::size_t kPiece = 1U << 14; // places of one piece of work
 
 static_assert(kSpaceOrderBytes == 2 * sizeof(SortRecord) + sizeof(std::uint32_t));

@@ -12,7 +12,7 @@
 namespace lsys {
 
 /// Indexes of the places by cells of a grid in Morton order (Morton 1966). Precondition: all
-/// positions are finite. Any order, though of all places, when cancelled.
+/// positions are finite. When cancelled, the order is arbitrary but still has all places.
 [[nodiscard]] LargeVector<std::uint32_t> order_in_space(std::span<const SensePlace> places,
                                                         const EnvironmentContext& context);
 

@@ -25,7 +25,7 @@ public:
                  LargeVector<SplitNode>& nodes)
         : items_(items), leaf_size_(static_cast<std::uint32_t>(leaf_size)), nodes_(nodes) {}
 
-    /// Fills the node of `task`. Returns the tasks of its children, none for a leaf.
+    /// Fills the node of `task`, and sets the tasks of its children. Returns false for a leaf.
     [[nodiscard]] bool split(const SplitTask& task, SplitTask& first, SplitTask& second) {
         SplitNode& node = nodes_[task.node];
         node = {task.begin, task.end, 0};

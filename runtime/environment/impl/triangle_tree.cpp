@@ -29,8 +29,8 @@ float rounded_up(double value) {
     return -rounded_down(-value);
 }
 
-/// orientation() seen from p + (e, e^2) for a positive number e that is smaller than all others:
-/// never on a line through two different points.
+/// orientation(a, b, q) with q = p + (e, e^2), for a positive number e that is smaller than any
+/// other: not 0 if a and b differ, because q is on no line through two different points.
 int perturbed_orientation(const Vector2& a, const Vector2& b, const Vector2& p) {
     if (const int sign = orientation(a, b, p); sign != 0) {
         return sign;

@@ -35,9 +35,9 @@ public:
 
     /// Bytes that build() allocates for this number of places.
     [[nodiscard]] static std::uint64_t bytes_for(std::uint64_t places);
-    /// Groups `count` places, at least one. `index(i)` are the indexes of the voxel of place i, not
-    /// rounded to integers. A failure has stop Diagnosed and the first place with an index beyond
-    /// 2^31, or stop Cancelled.
+    /// Groups `count` places, at least one. `index(i)` are the indexes of the voxel of place i, as
+    /// whole numbers in binary64. A failure has stop Diagnosed and the first place with an index
+    /// beyond 2^31, or stop Cancelled.
     [[nodiscard]] std::optional<EnvironmentFailure>
     build(std::size_t count, const std::function<Vector3(std::size_t)>& index);
 

@@ -256,7 +256,7 @@ private:
         }
     }
 
-    /// Half sides of a joint, across its parent and along it.
+    /// Half sides of the joint at the tip of a segment: across the segment, and along it.
     struct JointSize {
         float half;
         float height;

@@ -9,7 +9,7 @@ namespace lsys {
 
 namespace {
 
-constexpr double kSafeFactor = 1.04;       // margin within both bounds, where possible
+constexpr double kSafeFactor = 1.04;       // narrows the bounds of triangle counts, where possible
 constexpr std::uint32_t kMaxSideLevel = 8; // max increase of MeshOptions::level
 constexpr int kMaxTries = 24;              // max steps of the search for a number of paths
 constexpr double kEnoughTriangles = 0.96;  // fraction of the wanted triangles that suffices
@@ -43,8 +43,8 @@ DetailLevel DetailPlanner::coarser(const DetailLevel& before) {
         return ratio_excess(before, level) == 0.0;
     };
     if (wood + foliage < min) {
-        // Without these joints the level has too few triangles: keep more joints, or keep all
-        // joints and use fewer sides where branches are thin.
+        // axis_error leaves out so many joints that the level has too few triangles: keep more
+        // joints, or keep all joints and use fewer sides where branches are thin.
         const float error = base.options.axis_error;
         seek(&MeshOptions::axis_error, before.options.axis_error, error, min - foliage,
              max - foliage, base);

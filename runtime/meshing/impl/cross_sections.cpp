@@ -14,7 +14,7 @@ glm::dvec2 place(const ContourPoint& point) {
     return {static_cast<double>(point.x), static_cast<double>(point.y)};
 }
 
-/// Whether the points k and k + 1 are one corner.
+/// Whether the points `span` and `span` + 1 are one corner.
 bool is_corner(ContourPointer contour, std::size_t span) {
     return contour->points[span] == contour->points[span + 1];
 }

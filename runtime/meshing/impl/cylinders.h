@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One closed truncated cone per segment: MeshMethod::Cylinders, the method of comparison in
-// Crankshaw 2019.
+// One closed truncated cone per segment: MeshMethod::Cylinders, with which Crankshaw 2019 compares
+// seamless tubes.
 #pragma once
 
 #include "runtime/meshing/impl/mesh_builder.h"

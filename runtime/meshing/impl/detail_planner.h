@@ -134,8 +134,8 @@ private:
     /// distance of the drawn wood from the plant's wood.
     void raise_axis_error_for_paths(DetailLevel& level, double wanted);
 
-    /// Sets the number of paths to the largest number, at least one, that has at most `wanted`
-    /// triangles.
+    /// Lowers the number of paths until the wood has about `wanted` triangles. If a single path has
+    /// more, keeps it and calls raise_axis_error().
     void thin_paths(DetailLevel& level, double wanted);
 
     /// Raises axis_error until the wood has at most `wanted` triangles.

@@ -415,8 +415,8 @@ std::vector<std::uint8_t> ImpostorBaker::paint(const View& view,
             normal_map.texels[to + static_cast<std::size_t>(c)] =
                 unit_byte(0.5F + 0.5F * view.normals[i][c]);
         }
-        // A texel of the min coverage of an opaque texel gets half opacity, so that the mipmaps of
-        // a viewer cover as much as the picture.
+        // Opacity is proportional to coverage, and a half where the coverage of opaque texels is
+        // least, so that the mipmaps of a viewer cover as much as the picture.
         const std::uint8_t alpha = unit_byte(0.5F * view.coverage[i] / min_coverage);
         colour.texels[to + 3] = opaque[i] != 0 ? std::max<std::uint8_t>(alpha, kOpaqueByte)
                                                : std::min<std::uint8_t>(alpha, kOpaqueByte - 1);

@@ -22,8 +22,8 @@ constexpr std::size_t kLeafCorners = 8;
 /// Max angle in radians that L3D treats as 0.
 constexpr double kNoTurn = 0.001;
 
-/// The shortest rotation that takes +Y to `heading`. The identity if L3D finds no axis, as also for
-/// a heading straight down.
+/// The shortest rotation that takes +Y to `heading`. The identity if L3D finds no axis, for example
+/// for a heading straight down.
 glm::dquat turn_to(const glm::dvec3& heading) {
     const glm::dvec3 up(0.0, 1.0, 0.0);
     glm::dvec3 axis = glm::cross(up, heading);

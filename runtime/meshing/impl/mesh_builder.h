@@ -58,7 +58,7 @@ struct MeshVertex {
 /// Room for new vertices and indices, which the caller fills completely. Arrays that the options
 /// leave out are empty. Valid until the next call of the builder.
 struct MeshBlock {
-    std::uint32_t first_vertex = 0; // offset of indices into the block
+    std::uint32_t first_vertex = 0; // number in the mesh of the block's first vertex
     std::span<glm::vec3> positions;
     std::span<glm::vec3> normals;
     std::span<glm::vec2> texture_coordinates;

@@ -124,8 +124,8 @@ std::vector<AxisStation> stations_between(const OrganPoint& a,
     curve.slope_to = length * static_cast<double>(b.tangent_before) * end.heading;
     const double turn =
         angle_between(begin.heading, curve.chord) + angle_between(curve.chord, end.heading);
-    // The roll that is left depends on the number of steps through rounding errors and the shape of
-    // the curve only, so a rough one decides about the steps.
+    // The remaining roll depends on the number of steps only through rounding errors and the shape
+    // of the curve, so the roll for a single step, a rough value, decides that number.
     const glm::dvec3 rough = transported(begin.right, begin.heading, end.heading);
     const double rough_roll = exact_atan2(glm::dot(end.right, glm::cross(rough, end.heading)),
                                           glm::dot(end.right, rough));

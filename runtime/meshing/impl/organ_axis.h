@@ -23,8 +23,8 @@ struct AxisStation {
     double part = 0.0;  // fraction of the way from point a to point b
 };
 
-/// The stations from a to b, both included. `level` halves the number of steps between them;
-/// `min_steps` is the least number of steps.
+/// The stations from a to b, both included. Each level halves the number of steps between them;
+/// `min_steps` is the least number of steps at level 0.
 [[nodiscard]] std::vector<AxisStation> stations_between(const OrganPoint& a,
                                                         const OrganPoint& b,
                                                         std::uint32_t level,

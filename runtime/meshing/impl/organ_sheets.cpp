@@ -112,7 +112,7 @@ std::vector<OrganSheet> organ_sheets(std::span<const OrganPoint> points,
         while (end < points.size() && can_blend(blended.front(), contour_of(end))) {
             blended.push_back(contour_of(end++));
         }
-        // A contour that cannot blend with the one before holds from its point on.
+        // A contour that cannot blend with the one before begins a new sheet at its point.
         end = std::min(end, points.size() - 1);
         OrganSheet sheet;
         sheet.layout = layout_of(blended, used);

@@ -23,7 +23,7 @@ constexpr std::uint64_t kMaxTrianglesBeforeCards = 100; // with fewer triangles 
 constexpr std::uint64_t kMaxLastMeshTriangles = 20; // max triangles of a mesh that ends the chain
 constexpr std::uint64_t kMaxLastCardTriangles = 40; // max triangles of cards that end the chain
 constexpr double kMaxCardTriangles = 400.0;         // max triangles of an impostor
-constexpr int kMaxEqualSteps = 3; // max number of steps to the last level that get equal ratios
+constexpr int kMaxEqualSteps = 3; // with at most this many steps left, all ratios are equal
 constexpr int kRootSteps = 40;    // bisections in DetailPlanner::factor_from()
 
 } // namespace
@@ -125,7 +125,7 @@ double DetailPlanner::factor_from(double triangles) const {
     const double all = triangles / last_triangles_;
     int steps = 1;
     double max_ratio = kMaxFactor;             // max ratio that `steps` steps can reach
-    double usual = kUsualFactor * kRootFactor; // above it, steps + 1 is nearer to kUsualFactor
+    double usual = kUsualFactor * kRootFactor; // above it, steps + 1 fit kUsualFactor better
     while (max_ratio < all || usual < all) {
         ++steps;
         max_ratio *= kMaxFactor;

@@ -20,8 +20,8 @@ namespace lsys {
 namespace {
 
 // Max number of joints between the bases of two consecutive segments: the two edges of a collar may
-// each be cut for noise into at most sixteen pieces. With smooth joints, each edge is first cut
-// into at most kMaxCurveParts parts.
+// each be cut for noise into at most sixteen pieces. find_places() multiplies it by the number of
+// parts into which smooth joints, flares and wide collars first cut an edge.
 constexpr std::size_t kMaxBetween = 32;
 constexpr std::uint32_t kUnknown = kNoSegment;
 

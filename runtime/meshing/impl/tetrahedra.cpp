@@ -29,9 +29,9 @@ constexpr int kMaxGeneration = 3 * kHalvings;
 constexpr int kPieceGeneration = 6; // generation of tetrahedra that are cut in parallel
 /// Growth of the size of cells per metre of distance from the surface. Neighbours cut their common
 /// edge in the same way if the wanted size changes by less than 0.16 per metre. The 0.16 follows
-/// from three numbers: a bisection reduces kSteps by 0.206; the middles of two edges of a
-/// tetrahedron are at most 0.71 of its longest edge apart; its longest edge is less than 1.79 times
-/// its step.
+/// from three numbers: a bisection reduces the size Grid::step() by the fraction 0.206; the middles
+/// of two edges of a tetrahedron are at most 0.71 of its longest edge apart; its longest edge is
+/// less than 1.79 times this size.
 constexpr double kGrowth = 0.1;
 constexpr double kMaxGrowth = 0.16;
 /// Size of cells at the edge of the flat base, as a fraction of the size elsewhere; small cells
@@ -91,8 +91,8 @@ Grid make_grid(const Solid& solid) {
     const glm::dvec3 extent = high - low;
     Grid grid;
     const double min_side = kRoom * std::max({extent.x, extent.y, extent.z});
-    // Puts the step of the thinnest shapes, which are the most frequent, halfway between the steps
-    // of two generations.
+    // Puts the size of cells of the thinnest shapes, which are the most frequent, halfway between
+    // the sizes of tetrahedra of two generations.
     constexpr double kPhase = 0.9;
     grid.side = kPhase * solid.cell * thinnest;
     while (grid.side < min_side) {
@@ -214,7 +214,7 @@ private:
     [[nodiscard]] Size measure(const SolidShape& shape, const glm::dvec3& point) const {
         const ShapeProbe at = lsys::probe(shape, point);
         double cell = solid_.cell * at.radius;
-        double base_height = 0.0; // of the point above the flat base if that limits `cell`, else 0
+        double base_height = 0.0; // height above the flat base if that limits `cell`, else 0
         if (solid_.ground) {
             const double height = std::abs(point.y - *solid_.ground);
             const double at_base = kBaseCells * cell + kGrowth * height;
@@ -281,7 +281,7 @@ private:
         for (std::size_t i = first; i < last; ++i) {
             const Size& at = probes_[i - first];
             // A shape matters for the size of cells only if its cells may be the smallest somewhere
-            // in this tetrahedron. Of many leaves, only the nearest ones matter.
+            // in this tetrahedron. So of a plant's many leaves only the nearest ones matter.
             const bool may_be_nearest =
                 at.distance <= at_middle.distance + 2.0 * kLipschitz * reach;
             const bool may_be_smallest = at.size <= size + 2.0 * kMaxGrowth * reach;

@@ -63,7 +63,7 @@ void TubeTriangles::add(const Run& run) {
         return;
     }
     for (std::uint32_t i = 0; i < closing_rings(run.end); ++i) {
-        if (i == 1 && run.end == TubeEnd::Broken) { // again, with normals of the break
+        if (i == 1 && run.end == TubeEnd::Broken) { // same corners, normals of the break
             last_ = add_ring(joints[last].sides);
         } else {
             link(*list, joints[last].sides);

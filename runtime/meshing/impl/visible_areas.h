@@ -48,7 +48,7 @@ public:
     [[nodiscard]] VisibleAreas measure_third(const Mesh& wood, const Mesh& foliage);
 
 private:
-    /// Sums of the areas in `count` views, `step` numbers apart.
+    /// The areas in each of `count` views whose numbers are `step` apart.
     std::vector<VisibleAreas>
     measure_views(const Mesh& wood, const Mesh& foliage, std::size_t count, std::size_t step);
 

@@ -173,7 +173,7 @@ std::vector<double> near_loads(const std::vector<Body>& bodies, std::vector<doub
 
 /// Sets the contact of each body with the ground. A tip that is above the ground at rest may sink
 /// until its radius touches the ground; a tip that is below the ground at rest, with a descendant
-/// above it, may not sink; all other tips are free. `carried`: mass of each body and its
+/// above the ground, may not sink; all other tips are free. `carried`: mass of each body and its
 /// descendants, in kg.
 void add_ground(const Skeleton& rest, const std::vector<double>& carried, Bodies& out) {
     const std::size_t count = out.bodies.size();

@@ -45,7 +45,7 @@ struct Body {
     float end = 0.0F;
     float sail = 0.0F;
     Contact contact;
-    // Range in Bodies::contacts: contacts after the first, of a body of a coarse plant.
+    // Range in Bodies::contacts: the contacts of a run of several bodies, in coarse plants.
     std::uint32_t first_contact = 0;
     std::uint32_t contact_count = 0;
 };

@@ -117,8 +117,8 @@ public:
                std::uint32_t longest)
         : plant_(&plant), twigs_(&twigs), min_size_(min_size), longest_(longest) {}
 
-    /// Mean size of the twigs to which bodies that are left out belong, divided by the number of
-    /// bodies per kept body.
+    /// Mean, over the bodies that are left out, of the number of bodies of their twig, divided by
+    /// the number of bodies of the plant per kept body.
     [[nodiscard]] double relative_twig_size() const {
         double kept = 0.0;
         double squares = 0.0;

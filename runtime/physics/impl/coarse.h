@@ -16,8 +16,8 @@ inline constexpr std::uint32_t kMinCoarsened = 2000;
 
 /// A connected part of a plant. A twig that is left out becomes a point mass on its parent body, at
 /// the base of the twig; the parent body gets the area of the twig that faces the wind. Each body
-/// represents a run of bodies of the plant, each the only kept child of the body before it: the run
-/// is rigid in the coarse plant, and all its joints bend together.
+/// represents a run: bodies of the plant, of which each is the only kept child of the one before.
+/// The run is rigid in the coarse plant, and all its joints bend together.
 struct CoarsePlant {
     Bodies bodies; // `segments` and `body_of_segment` are empty
     /// Bodies of the whole plant in the runs, run by run, from base to tip of a run.

@@ -13,7 +13,7 @@ namespace lsys {
 raised(const Contact& contact, const glm::dquat& turn, const glm::dvec3& shift);
 
 /// Raises bodies out of the ground, from the root to the tips. Bodies that are not in the ground
-/// keep their rotation; a body that is not displaced keeps all its bits. Linear time.
+/// keep their rotation; the pose of a body that is not displaced keeps its bits. Linear time.
 void rest_on_ground(const Bodies& plant, const Skeleton& rest, std::vector<BodyPose>& poses);
 
 } // namespace lsys

@@ -13,8 +13,8 @@
 // G is |g| |Body::moment|, plus |arm| |force| of the wind on the body and on each child with its
 // descendants: the second derivative of the energy of the weight in absolute rotations has no
 // coupling between bodies and is nowhere greater than G. The second derivative of the energy of a
-// spring along a rotation is nowhere greater than k. So the
-// minimum has a lower energy, however long the step is. Forces::exactness replaces these bounds by
+// spring along a rotation is nowhere greater than k. So the energy at the minimum is lower than at
+// the start of the step, however long the step is. Forces::exactness replaces these bounds by
 // the true second derivatives. In directions with a negative true derivative, as for a branch that
 // could fall to either side, the absolute value is used, so that all other directions keep the
 // convergence of Newton's method.

@@ -54,8 +54,8 @@ CrowdGrid::CrowdGrid(const Region& region, std::span<const ForestPlant> plants)
     }
     const double square_area =
         std::max(region.area(), box_area) / std::max(1.0, static_cast<double>(plants.size()));
-    // There are about as many squares as plants; limiting both numbers by `count` ensures this on
-    // long, narrow ground.
+    // There are about as many squares as plants, on long, narrow ground too: neither columns nor
+    // rows are more than `count` + 1.
     const double count = static_cast<double>(plants.size()) + 1.0;
     side_ = std::max({std::sqrt(square_area), region.width / count, region.depth / count});
     columns_ = static_cast<std::uint32_t>(region.width / side_) + 1;

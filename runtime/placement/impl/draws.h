@@ -22,8 +22,8 @@ inline constexpr std::uint32_t kLifeBlock = 2;       // words: age of death, sta
 /// Blocks kCellBlock to kCellBlock + 3, whose position is the number of a cell. They decide the
 /// count of places (UniformCells), or the random order of 16 places (DensityCells).
 inline constexpr std::uint32_t kCellBlock = 8;
-/// Blocks whose position is a step of PoissonDisk: one chooses the active point, then one decides
-/// each two attempts.
+/// Blocks whose position is a step of PoissonDisk: the first chooses the active point, each of the
+/// others decides two attempts.
 inline constexpr std::uint32_t kStepBlock = 16;
 /// Blocks whose position is the number of a plant: kMaxSeeds blocks per year. The first decides the
 /// number of seeds, each of the others one seed.

@@ -33,8 +33,8 @@ struct RowProduct {
     float rest; // z component of the gradient times the distance along Z
 };
 
-/// The four lattice points of a cell, near or far along X and then along Z, and the constants of a
-/// row. Near points are at or below the points of the row, far points are the next above.
+/// The four lattice points of a cell, named near or far first along X, then along Z, and the
+/// constants of a row. Near points are at or below the points of the row, far points next above.
 struct RowCell {
     RowProduct near_near;
     RowProduct near_far;
