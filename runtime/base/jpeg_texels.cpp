@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <limits>
 
-// stb_image 2.27 uses Huffman tables that a damaged file does not define, and then reads outside of
-// them, as their memory happens to be. Tables of zeros decode to zeros.
+// If a damaged file uses Huffman tables that it does not define, stb_image 2.27 takes them from
+// uninitialised memory, and reads beyond them. Zeroed memory decodes to zeros.
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)
 #define STBI_FREE(memory) std::free(memory)

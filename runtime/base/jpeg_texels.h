@@ -12,8 +12,8 @@
 namespace lsys {
 
 [[nodiscard]] bool is_jpeg(std::string_view bytes);
-/// Reads a baseline or progressive JPEG, which is opaque. A picture of more than `max_pixels`, or one that needs
-/// more than `max_bytes` while it is decoded, is refused before memory is allocated.
+/// Reads a baseline or progressive JPEG as opaque texels. A picture of more than `max_pixels`, or
+/// one that needs more than `max_bytes` to decode, is refused before memory is allocated.
 [[nodiscard]] Result<PictureTexels>
 read_jpeg_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes);
 

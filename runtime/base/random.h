@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"),
 // and the counters of docs/language.md section 6. A draw is a pure function of seed, generation,
-// position and its number, so results depend on no thread, chunk or order.
+// position and draw number, so results depend on no thread, chunk or order.
 #pragma once
 
 #include <array>

@@ -33,8 +33,8 @@ public:
                channels <= kChannels && colour_map == 0;
     }
 
-    /// Reads the samples of a row, from the bottom, to every kChannels-th byte of `to`. Returns
-    /// false if the file is damaged.
+    /// Reads a channel of row `row`, counted from the bottom, to every kChannels-th byte of `to`.
+    /// Returns false if the file is damaged.
     bool read_row(std::uint32_t row, std::uint32_t channel, std::uint8_t* to) const {
         const std::size_t index = std::size_t{channel} * rows + row;
         if (!is_encoded_) {
@@ -70,15 +70,15 @@ private:
     }
     [[nodiscard]] std::uint32_t word(std::size_t at) const { return half(at) << 16 | half(at + 2); }
 
-    /// A packet has a count in its lowest 7 bits, 0 at the end of the row. With the bit 0x80 that
-    /// number of samples follows, else one sample that is repeated.
+    /// A packet is as wide as a sample. Its lowest 7 bits are a count, 0 at the end of the row. If
+    /// bit 0x80 is set, that number of samples follows, else one sample that is repeated.
     bool decode_row(std::size_t at, std::size_t end, std::uint8_t* to) const {
         std::uint32_t x = 0;
         while (x < columns) {
             if (at + sample_bytes_ > end) {
                 return false;
             }
-            const unsigned packet = byte(at + sample_bytes_ - 1); // the last byte of the sample
+            const unsigned packet = byte(at + sample_bytes_ - 1); // its lowest byte
             at += sample_bytes_;
             const unsigned count = packet & 0x7FU;
             const bool is_run = (packet & 0x80U) == 0;

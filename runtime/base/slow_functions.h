@@ -19,7 +19,7 @@ struct ReducedAngle {
     bool is_negative = false;
     std::uint32_t quarters = 0; // 0 to 3
 };
-/// Reduces an angle of 2^-30 to 2^1024 radians.
+/// Reduces an angle in radians. Precondition: 2^-30 <= |angle| < 2^1024.
 [[nodiscard]] ReducedAngle reduce_radians(double angle);
 /// `degrees`: from 0 to 45.
 [[nodiscard]] WideFixedPoint radians_of(double degrees);

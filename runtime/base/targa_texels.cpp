@@ -22,7 +22,7 @@ class TargaFile {
 public:
     explicit TargaFile(std::string_view bytes) : bytes_(bytes) {}
 
-    /// Returns false if the header is of no picture that is read.
+    /// Returns false if pictures with this header cannot be read.
     bool read_header() {
         if (bytes_.size() < kHeaderBytes) {
             return false;

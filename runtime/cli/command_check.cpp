@@ -39,7 +39,7 @@ GrammarOptions options_of(const std::string& path,
     return options;
 }
 
-/// Adds the errors of files that `#sense` statements of a grammar without other errors name.
+/// Adds the errors of files that `#sense` statements name, unless the grammar has errors already.
 void check_files(const std::string& path, const Project& project, CompiledText& compiled) {
     if (compiled.has_bytecode) {
         check_environment_files(path, compiled.grammar, project, compiled.diagnostics);

@@ -58,7 +58,7 @@ std::string first_error(const Messages& messages) {
     return {};
 }
 
-/// The name of a file for a comment that ends with its line.
+/// The name of a file, with `?` for control characters, which could end a `//` comment.
 std::string comment_text(const std::filesystem::path& name) {
     std::string text = path_text(name);
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
@@ -186,8 +186,8 @@ std::string unused_path(const std::string& stem, FolderImport& import) {
     return path_text(import.folder / path_of(name));
 }
 
-/// Writes a file whose name the program chose; replaces an existing file only with --force. Returns
-/// the error that was printed.
+/// Writes a file whose name the program chose; replaces an existing file only with --force. The
+/// caller prints the Error.
 Result<void>
 write_new_file(const std::string& path, const std::string& text, const FolderImport& import) {
     std::error_code error;

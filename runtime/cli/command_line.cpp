@@ -448,7 +448,7 @@ std::vector<std::string> named_files(const Command& command) {
     return files;
 }
 
-/// Completes the options of a command, apart from those of presets. Returns a mistake.
+/// Applies --base and the file policy to the options of a command. Returns the mistake, if any.
 struct Complete {
     const CLI::App& app;
 
@@ -615,7 +615,7 @@ void add_program_options(CLI::App& app, ProgramOptions& options) {
     app.footer("`lsc help COMMAND` and `lsc COMMAND --help` list the options of a command.");
 }
 
-/// The commands that add_commands() gives options.
+/// The commands that add_commands() adds.
 enum class Commands { All, OnlyChosen };
 
 /// Adds commands. Only the command `chosen` gets options, because `parsed` has room for the options

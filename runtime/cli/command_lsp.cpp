@@ -97,7 +97,7 @@ ExitStatus run_command(const LspCommand& command, const Console& console) {
     host.offer_doubtful = [](const CheckedText& checked, const Project& project,
                              CompiledText& compiled) {
         const repair::FixScope scope(checked.path, std::array{checked.path});
-        // After a failure of the environment no fix is known to be certain.
+        // After an error, such as an unreadable file, no fix is known to be certain.
         if (!repair::offer_doubtful_fixes(checked.path, checked.text, checked.options, scope,
                                           project, compiled)) {
             compiled.diagnostics.offer_fixes_from(0);

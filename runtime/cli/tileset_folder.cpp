@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Number of files that are stored at once: many, so that storing takes less time than making them.
-/// Each is open until it has its name.
+/// Number of files that are flushed to the disk together: many, so that flushing takes less time
+/// than making them. Each file stays open until it has its name.
 std::size_t files_stored_at_once() {
     constexpr std::size_t kMostFiles = 128;
     return std::clamp<std::size_t>(platform::max_open_files() / 4, 1, kMostFiles);

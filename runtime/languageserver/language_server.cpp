@@ -420,7 +420,7 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
         return;
     }
     const LanguageServerHost& host = workspace.host;
-    // A notification has no limit of time: half a change would leave another text than the editor's.
+    // A notification has no time limit: half a change would leave another text than the editor's.
     std::optional<Deadline> deadline;
     if (is_request) {
         deadline.emplace(host.max_seconds, host.project.host.cancelled, std::function<void()>());

@@ -433,7 +433,7 @@ bool size_heroes(const Settings& settings,
     return true;
 }
 
-/// What the heroes of a species sensed, if any is kept.
+/// Completes `sensed`, the stages of a species; null if it has no stages.
 std::shared_ptr<const SensedHeroes>
 finished(double scale, const ForestSpecies& species, SensedHeroes sensed) {
     if (sensed.stages.empty()) {

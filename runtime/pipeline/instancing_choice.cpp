@@ -115,7 +115,7 @@ public:
                 }
             }
         }
-        // Where no choice fits into the budget, a cap may make the least one fit.
+        // A cap may save memory of `smallest`, or make `least` fit if no choice fits the budget.
         const Choice& capped = smallest.is_set() ? smallest : least;
         if (!written.cap && (smallest.is_set() || !best_in_budget.is_set())) {
             for (const std::uint32_t cap : kCaps) {

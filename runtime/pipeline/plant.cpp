@@ -62,7 +62,7 @@ DerivationEnd draw_streamed(const DeriveOptions& options,
     return turtle.end().stop ? DerivationEnd{} : std::move(outcome.end);
 }
 
-/// Applies the pipe model and scales the plant to its height, if settings or options request them.
+/// Applies the pipe model, widths in pixels, and `#set scale` or a height, where requested.
 std::optional<Stop>
 size_plant(const PlantOptions& options, const Grammar& grammar, Step& step, Skeleton& skeleton) {
     const Settings& settings = grammar.bytecode.settings;
@@ -280,8 +280,8 @@ MeshOptions limited_options(const MeshOptions& options, const Project& project) 
     return limited;
 }
 
-// Meshes are computed in binary32, where squares of lengths overflow at 1.8e19 m. Beyond this
-// distance a mesh would lack parts, other ones for each method.
+// Meshes are computed in binary32, where squares of lengths overflow at 1.8e19 m. The mesh of a
+// larger plant would lack parts; which ones depends on MeshOptions::method.
 constexpr float kMaxExtent = 1e15F; // m
 
 /// An Error if a segment, object or corner is so large or so far away that meshes cannot show it.

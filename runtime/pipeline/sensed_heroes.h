@@ -36,7 +36,7 @@ struct SensedHeroes {
                                               std::vector<SensedStage>* kept);
 
 /// Completes the stages of a species after its heroes have their size. `scale`: factor by which
-/// `#set height` has scaled them. `caches`: by stage.
+/// `#set height` or `#set scale` has scaled them. `caches`: by stage.
 void finish_sensed_heroes(double scale,
                           const std::vector<const InstanceCache*>& caches,
                           SensedHeroes& heroes);

@@ -49,8 +49,8 @@ struct SensedPlant {
     std::uint32_t generation = 0;  // age of the last word that was sensed
     bool has_sensed = false;       // whether any word was sensed
     std::vector<SensedPart> parts; // by index in Bytecode::environments
-    /// Size of the drawn plant / size of the plant while it sensed, since `#set height` scales the
-    /// drawn plant.
+    /// Size of the drawn plant / size of the plant while it sensed, since `#set height` or `#set
+    /// scale` scales the drawn plant.
     double scale = 1.0;
 };
 

@@ -75,8 +75,8 @@ public:
     /// Ends with Stop::Limit or Stop::OutOfMemory, because `what` ("the mesh") exceeds
     /// `limits.max_bytes` of the project (Stop::Limit) or the memory of the machine.
     [[nodiscard]] Ended end_too_large(Stop stop, std::string_view what);
-    /// Ends with a failure of the environment or a limit of memory, or with Stop::Cancelled if the
-    /// host has cancelled the step.
+    /// Ends with Stop::Failed, with Stop::Limit for ErrorKind::Limit, or with Stop::Cancelled if
+    /// the host has cancelled the step.
     [[nodiscard]] Ended fail(Error error);
     [[nodiscard]] Ended fail(std::string message) { return fail(Error{std::move(message)}); }
 

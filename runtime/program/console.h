@@ -95,7 +95,7 @@ private:
 [[nodiscard]] std::string
 messages_text(const Messages& messages, const MessageOptions& options, const char* program);
 
-/// Prints an error of the environment; returns Failure, or Limit for ErrorKind::Limit.
+/// Prints `error`; returns Failure, or Limit for ErrorKind::Limit.
 [[nodiscard]] ExitStatus report_error(const Error& error, const Console& console);
 /// Prints the error of `result`, if it has one; returns its exit status.
 [[nodiscard]] ExitStatus report_result(const Result<void>& result, const Console& console);

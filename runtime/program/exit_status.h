@@ -13,7 +13,7 @@ namespace lsys {
 enum class ExitStatus : std::uint8_t {
     Ok = 0,
     AuthorErrors = 1, // mistakes in a grammar or scene
-    Failure = 2,      // a wrong command line, or an error of the environment
+    Failure = 2,      // a wrong command line, or a failure such as a missing file
     Limit = 3,        // a limit of the run is exceeded, or memory has run out
     Interrupted = 130
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds options by name, in place of CLI::App::get_option() and get_option_no_throw(). These end the
-// process where memory runs out, because they allocate in a function that is noexcept.
+// Finds options by name, in place of CLI::App::get_option() and get_option_no_throw(). These end
+// the process when memory runs out, because they allocate in a function that is noexcept.
 #pragma once
 
 #include <string>

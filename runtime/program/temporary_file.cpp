@@ -15,8 +15,8 @@ namespace {
 using platform::File;
 using platform::Reason;
 
-// Numbered names come first, because a later run finds them without reading the folder. Their
-// count limits the processes that write one file at once and can be tidied up after.
+// Numbered names are tried first: a later run finds files that killed processes left under them
+// without reading the folder. Files left under random names stay.
 constexpr int kNumberedNames = 4;
 constexpr int kRandomNames = 100;
 

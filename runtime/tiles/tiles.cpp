@@ -71,7 +71,7 @@ struct TileForest::State {
 
     std::unique_ptr<DensityField> field;     // only for a placement on an unbounded grid
     std::optional<CanopyField> field_canopy; // only for a placement on an unbounded grid
-    std::vector<Canopy> counted_canopies;    // for other placements; levels without trees
+    std::vector<Canopy> counted_canopies;    // for other placements; by level without trees
     CanopyAtCorner canopy_at;
 
     std::optional<TileParts> parts;

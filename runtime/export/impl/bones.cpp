@@ -16,7 +16,7 @@ namespace lsys {
 
 namespace {
 
-// A piece gets no further joint if its positions are off by at most this fraction of the plant's
+// A piece is not cut further if its positions are off by at most this fraction of the plant's
 // size.
 constexpr double kPlaceTolerance = 1e-5;
 // Max error of positions due to an omitted key, relative to the max displacement of a tip in the
@@ -512,7 +512,7 @@ private:
             const std::uint32_t parent = tree_.parents[i];
             const BoneWeights at_parent =
                 parent == kNoSegment ? BoneWeights{{0}, {1.0F}} : bones_.segments[parent][1];
-            if (joint == 0 || along[i] < 0.0) { // bound to one joint: still, or beside the axis
+            if (joint == 0 || along[i] < 0.0) { // like its parent's tip: still, or beside the axis
                 bones_.segments[i] = {at_parent, at_parent};
                 continue;
             }

@@ -179,7 +179,7 @@ ForestMaterials find_forest_materials(const ForestScene& scene, const ForestPlan
             materials.of_ground.push_back(add_material(materials.samples, material));
         }
     }
-    // Makes names unique: files of different species may have the same name.
+    // Makes the names of materials unique: different species may use the same names.
     finish_samples(materials.samples, textured, tangents);
     return materials;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// GltfBufferPlan: the arrays of a plant in the buffer of a glTF file, as floats and integers of full
-// size, quantised (KHR_mesh_quantization), or quantised and compressed (EXT_meshopt_compression). A
-// stream is one buffer view and, for a primitive, one accessor. Made by plan_gltf_buffer(); read
+// GltfBufferPlan: the arrays of a plant in the buffer of a glTF file: of full size, quantised
+// (KHR_mesh_quantization), or quantised and compressed (EXT_meshopt_compression). A stream is one
+// buffer view and, for a primitive, one accessor. Made by plan_gltf_buffer(); read
 // by write_glb() and write_gltf(), which describe the streams and write the buffer.
 #pragma once
 

@@ -223,7 +223,7 @@ private:
     Places& at_;
     TurtleProfile profile_;
     std::map<ModuleKey, std::vector<std::string>> modules_; // formals by module
-    /// Numbers of parameters, by module.
+    /// By name of a module: the counts of parameters with which the name occurs.
     std::map<std::string_view, std::set<std::uint32_t>> counts_;
     std::map<std::string_view, std::vector<std::string>> functions_; // formals by function
     /// Hints by offset and label.

@@ -91,7 +91,7 @@ std::size_t word_begin(std::string_view text, std::size_t end) {
     return end;
 }
 
-/// Adds the names in the parentheses of a predecessor, or before the `=` of local values.
+/// Adds the names in the parentheses of a predecessor; add_local_values(): those before each `=`.
 void add_locals(std::string_view field, std::set<std::string>& locals) {
     int depth = 0;
     for (std::size_t i = 0; i < field.size(); ++i) {
@@ -468,8 +468,8 @@ void add_modules(const NameIndex& index, Completion& items) {
         const std::string name{'?', kTurtleSenses[i]};
         items.add_documented(name, ItemKind::Class, name + "(x, y, z)", turtle_sense_text(name));
     }
-    // With `#set names letters` one `#module` may declare several modules; its outline, added above,
-    // has only the first name.
+    // With `#set names letters` one `#module` may declare several modules; its outline, added
+    // above, has only the first name.
     for (const NameUse& use : index.uses) {
         if (use.kind == NameKind::Module && use.is_definition) {
             items.add(use.name, ItemKind::Class, "");

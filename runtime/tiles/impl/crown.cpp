@@ -75,7 +75,7 @@ Crown crown_of(const Mesh& mesh) {
              i += 3) {
             const std::array<std::uint32_t, 3> corner{reader[i], reader[i + 1], reader[i + 2]};
             std::array<glm::dvec3, 3> at{};
-            for (std::size_t k = 0; k < 3; ++k) { // in units of the samples
+            for (std::size_t k = 0; k < 3; ++k) { // x and z in samples, y in m
                 const glm::dvec3 position(mesh.positions[corner[k]]);
                 at[k] = {(position.x - static_cast<double>(bounds.low.x)) / step_x, position.y,
                          (position.z - static_cast<double>(bounds.low.z)) / step_z};

@@ -33,7 +33,7 @@ struct PatchPlan {
 /// which is needed for normals.
 [[nodiscard]] std::vector<double> patch_places(double first, double length, std::uint32_t cells);
 
-/// The mesh in the frame of the tile, with +Y up. Its triangles depend on the number of cells alone.
+/// The mesh in the frame of the tile, with +Y up. Its triangles depend only on the number of cells.
 [[nodiscard]] Mesh make_patch(const PatchPlan& plan);
 /// A level patch. Its triangles are the same as those of all patches with this number of cells.
 [[nodiscard]] Mesh make_level_patch(std::uint32_t cells);

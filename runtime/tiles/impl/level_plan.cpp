@@ -240,8 +240,8 @@ private:
         return std::max(error, ground_errors_[number]);
     }
 
-    /// Shows each tree as a plant. A plant gets the level of detail of the next finer level, or a
-    /// coarser one if that has too many triangles.
+    /// Shows each tree as a plant. A plant keeps the level of detail that it has in the tiles of
+    /// level `number` + 1, or gets a coarser one if a tile would have too many triangles.
     void choose_plants(std::uint32_t number) {
         const bool is_finest = number == plan_.finest();
         LevelDetail& level = plan_.details[number];

@@ -74,8 +74,8 @@ TileBox TileBoxes::box_of(const TileId& tile) const {
     }
     add(region.x + region.width / 2.0, region.z + region.depth / 2.0);
     if (earth_.is_curved()) {
-        // Arcs between these points and tilted boxes of the tiles below protrude by at most the
-        // square of the diagonal of the region divided by the diameter of the Earth.
+        // The ground bulges between these points, and the boxes of the tiles below are tilted. Both
+        // protrude by at most the squared diagonal of the region / the diameter of the Earth.
         const double width = region.width + 2.0 * reach_.around;
         const double depth = region.depth + 2.0 * reach_.around;
         const glm::dvec3 slack((width * width + depth * depth) / (2.0 * kLeastRadius));

@@ -118,7 +118,7 @@ Result<void> CellTrees::check(const PlacementOptions& options, const Terrain& te
     if (const Result<double> places = expected_places(options); !places) {
         return places.error();
     }
-    // Tries to place trees at the corners of the region, where the numbers of cells are largest.
+    // Tries to place trees at the corners of the region, where cells have the largest indices.
     for (int corner = 0; corner < 4; ++corner) {
         PlacementOptions piece = options;
         const Region& all = options.region;
