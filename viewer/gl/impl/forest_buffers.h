@@ -33,7 +33,7 @@ inline constexpr std::size_t kBranchClasses = 4;
 
 /// Set of buffers that uploads and draws use. Impostor: for baking, which happens between pictures
 /// of the forest. Shadow: for branches that cast shadows near the eye; its trees are those of
-/// Forest.
+/// the set Forest.
 enum class BufferSet : std::uint8_t { Forest, Impostor, Shadow };
 
 struct DrawCommand {         // layout of glMultiDrawElementsIndirect
