@@ -279,7 +279,7 @@ public:
             Result<ProgramObject> made =
                 make_program(device_, shaders_, "copy.vert.glsl", "copy.frag.glsl");
             if (!made) {
-                return false; // shown pictures need not change
+                return false; // the picture stays without refinement
             }
             copy_ = std::move(made.value());
         }

@@ -77,7 +77,7 @@ public:
 
     /// Uploads meshes, forms, materials and pictures; frees the meshes of the model.
     void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
-    /// Uploads forms again, for other trees of the same meshes. Precondition: upload() was called.
+    /// Uploads forms again if only trees have changed. Precondition: upload() was called.
     void upload_forms(const ForestModel& model, const ImpostorPlan& plan);
     /// Sets the colours of the branches. Precondition: upload() was called.
     void set_colours(const ForestModel& model, BranchColours by);
