@@ -90,7 +90,7 @@ public:
     std::vector<std::string> varied;
     std::array<SheetCell, kSheetCells> cells;         // cells of the last show()
     std::array<std::uintptr_t, kSheetCells> images{}; // for ImGui::Image(); 0: none yet
-    /// Whether a cell has been handled; true without an image: its plant could not be made.
+    /// Whether the picture of a cell was taken; true without an image: its plant could not be made.
     std::array<bool, kSheetCells> done{};
     /// Whether all pictures taken so far are equal.
     [[nodiscard]] bool are_alike() const { return are_alike_; }

@@ -31,7 +31,7 @@ struct PanelState {
     bool quits = false;         // close the window now: no unsaved changes are left
     FocusMove focus_move = FocusMove::None;
     PanelFocus focus;
-    /// Text of View::all_messages() when the user closed the messages; other messages are shown.
+    /// Text of View::all_messages() when the user closed them; they stay hidden until it changes.
     std::string closed_messages;
     std::string state_folder; // folder of files kept between runs; empty: none are kept
     OpenDialog dialog = OpenDialog::None;
@@ -217,7 +217,7 @@ private:
 
     float speed_ = 1.0F; // factor of the speed of flying
     bool is_moving_ = false;
-    // Place where the left button was pressed; empty once the mouse has moved from there.
+    // Window pixel where the left button was pressed; empty once the mouse has moved from there.
     std::optional<glm::vec2> pressed_;
 };
 

@@ -111,8 +111,8 @@ Light daylight_of(const SceneLight& scene, const Light& light) {
         return on.sun * up + glm::mix(on.horizon, on.sky, 0.6F);
     };
     changed.ground = light.ground * falls(changed) / falls(light);
-    // The exposure follows the light as an eye does: it changes by the square root of the change of
-    // the light.
+    // The exposure follows the light as an eye does: it is divided by the square root of the factor
+    // by which the light on the ground changes.
     constexpr float kMaxExposure = 8.0F;
     changed.exposure *=
         std::min(std::sqrt(luminance(falls(light)) / std::max(luminance(falls(changed)), 1e-3F)),

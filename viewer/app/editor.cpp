@@ -105,7 +105,7 @@ std::vector<std::string> found_command(std::string_view command,
     return words.front().empty() ? std::vector<std::string>() : words;
 }
 
-/// Appends a place in a form. An absolute path cannot be mistaken for an option.
+/// Appends the arguments that open `place`. An absolute path cannot be mistaken for an option.
 void append_place(const FilePosition& place, PlaceForm form, std::vector<std::string>& words) {
     std::error_code error;
     const std::filesystem::path absolute = std::filesystem::absolute(path_of(place.file), error);

@@ -55,8 +55,8 @@ public:
     /// Removes the last character of the text, in UTF-8; if the text is empty, goes to the parent
     /// folder.
     void erase_character();
-    /// Extends the text by all characters that all entries which begin with its last name have in
-    /// common; a single entry is completed to its whole name.
+    /// Completes the name after the last `/` of the text: appends the characters that all entries
+    /// beginning with this name have in common; a single entry is completed to its whole name.
     void complete();
     /// Moves the selection; stops at both ends.
     void move(int steps);

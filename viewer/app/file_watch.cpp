@@ -186,7 +186,7 @@ struct FileWatch::State {
                 check_stamps(now);
             }
             // Reports when no event has come for `quiet` or, in folders with constant writes, after
-            // kMaxDelayRatio.
+            // kMaxDelayRatio times `quiet`.
             const auto first = first_change();
             if (first && ((in_change && waited.timed_out) ||
                           now - *first > kMaxDelayRatio * options.quiet)) {

@@ -50,9 +50,9 @@ Outcome<void> make_model(const ViewOptions& options,
     return step.done();
 }
 
-/// Copies the chosen heroes, rho and cap of the caches from `before` if its goal and species are
-/// the same, so that an edit in a window does not start a new search for them. Returns whether goal
-/// and species are the same.
+/// If `scene` has a goal, and goal and species are those of `before`, copies those of heroes, rho
+/// and cap of the caches that `scene` does not set, so that an edit in a window does not start a
+/// new search for them. Otherwise returns false.
 bool keep_choice(const Scene& before, Scene& scene) {
     if (!scene.goal.is_set() || before.goal != scene.goal ||
         before.species.size() != scene.species.size()) {

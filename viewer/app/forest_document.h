@@ -26,11 +26,11 @@ struct ForestDocument {
     /// forests. Refers to `grown`.
     std::shared_ptr<const SquareSource> squares;
     MeshOptions mesh_options;
-    std::vector<std::string> files; // all requested files, readable or not, if recorded
+    std::vector<std::string> files; // all requested files, readable or not; set by make_forest()
     // Height of the tallest placed tree, m; empty: too many trees to measure.
     std::optional<double> tallest;
-    /// Time of the year of the first species that follows SceneSpecies::season; nullopt: no species
-    /// follows it. Set only in a window.
+    /// Time of the year, 0 to 1, of the first species whose grammar has a constant `season` that
+    /// the scene does not define; nullopt: no such species. Set only in a window.
     std::optional<float> season;
     double parse_seconds = 0.0; // time to read and parse the scene and its grammars
     double mesh_seconds = 0.0;  // time to make the meshes of `model`
@@ -41,8 +41,8 @@ struct ForestDocument {
 make_forest_document(const ViewOptions& options, const Project& project);
 
 /// Makes the forest that a window shows. `edits` of the window are applied after the overrides of
-/// `options`. All placed trees are kept, because ForestPainting applies `scene.painting`. Heroes
-/// are taken from `known` where possible; `known` may be null.
+/// `options`. `scene.painting` is not applied: ForestPainting erases and adds its trees. Heroes are
+/// taken from `known` where possible; `known` may be null.
 [[nodiscard]] Outcome<std::shared_ptr<ForestDocument>>
 make_unpainted_forest(const ViewOptions& options,
                       const SceneOverrides& edits,

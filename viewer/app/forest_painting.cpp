@@ -14,7 +14,7 @@ namespace lsys::view {
 
 namespace {
 
-constexpr double kPickCell = 1.0;    // m, side of a cell on grounds of 16 to 1024 m
+constexpr double kPickCell = 1.0;    // m, side of a HeightField cell on grounds of 16 to 1024 m
 constexpr double kMaxCells = 1024.0; // along a side of the height field
 constexpr float kStep = 0.5F;        // distance between places of a stroke, in radii of the brush
 constexpr std::uint32_t kMaxSteps = 256; // max number of places per motion of the pointer
@@ -72,8 +72,8 @@ Painter& ForestPainting::painter() {
     return *painter_;
 }
 
-/// The painting with the species of document_, which are matched by name. Drops trees of species
-/// that document_ does not have.
+/// The painting with the species numbers of document_; species are matched by name. Drops trees of
+/// species that document_ does not have.
 Painting ForestPainting::renamed(const Painting& painting) const {
     const std::vector<std::string> names = names_of(document_->scene);
     Painting result{{}, painting.erased};

@@ -36,7 +36,7 @@ public:
     /// to it, and keeps unsaved changes. Returns a note for the user, which may be empty.
     [[nodiscard]] std::string set_document(std::shared_ptr<const ForestDocument> document);
 
-    /// Drops all painted and erased trees, saved or not.
+    /// Forgets which trees were painted and erased, saved or not.
     void clear() {
         painter_.reset();
         in_file_.reset();
@@ -92,7 +92,7 @@ private:
     void apply_at(float x, float z, PaintTool tool, const Brush& brush);
     /// Sends changed trees to the renderer and counts them.
     void show(std::span<const TreeChange> changes);
-    /// Sends the trees around changed trees, which sense other surroundings, to the renderer.
+    /// Sends the trees that sense the changed trees in their surroundings to the renderer.
     void show_surroundings(std::span<const TreeChange> changes);
     /// Sends all painted and erased trees to the renderer.
     void show_all();
@@ -105,7 +105,7 @@ private:
     std::optional<HeightField> ground_; // made on first use
     std::optional<glm::dvec3> last_;    // last place to which the stroke moved
     PaintCount count_;
-    std::uint64_t painted_ = 0; // number of living painted trees
+    std::uint64_t painted_ = 0; // number of painted trees that are not erased or undone
     std::string saved_text_;
 };
 

@@ -369,7 +369,7 @@ void draw_colours(ForestView& view) {
     draw_legend(view);
 }
 
-/// `scene`: season of the scene; nullopt: no species follows the season.
+/// `scene`: ForestDocument::season. `edit`: the value that the user has set.
 void draw_season(const std::optional<float>& scene, std::optional<float>& edit) {
     ImGui::BeginDisabled(!scene);
     draw_edit("Season", scene.value_or(0.0F), edit, [&scene](float& value) {

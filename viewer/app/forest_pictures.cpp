@@ -213,7 +213,7 @@ ExitStatus take_forest_pictures(const ViewOptions& options,
         cull.gpu.push_back(drawn.cull_gpu_milliseconds);
         shadow.draws += drawn.shadow.draws;
         shadow.triangles += drawn.shadow.triangles;
-        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // when it was last drawn
+        shadow.gpu_milliseconds = drawn.shadow.gpu_milliseconds; // of its last drawing
         ++pictures;
         if (!options.pick) {
             return ExitStatus::Ok;

@@ -48,8 +48,8 @@ private:
 /// Displacements of environments by species.
 using SpeciesMoves = std::vector<std::vector<EnvironmentMove>>;
 
-/// Draws what `trees` sense, the result of NearestSensing. `moves`: displacements
-/// of environments since the forest has grown; empty: none.
+/// Draws what `trees`, found by NearestSensing, sense. `moves`: displacements of environments since
+/// the forest has grown; empty: none.
 [[nodiscard]] SenseDrawing make_forest_sense_drawing(const ForestDocument& document,
                                                      const std::vector<Tree>& trees,
                                                      const SenseLook& look,
@@ -58,7 +58,7 @@ using SpeciesMoves = std::vector<std::vector<EnvironmentMove>>;
 [[nodiscard]] SenseDrawing
 forest_sense_drawing(const ForestDocument& document, const SenseLook& look, const Camera& camera);
 
-/// An obstacle of a tree that a ray meets.
+/// An obstacle that a ray meets, and the tree that senses it.
 struct ForestObstacleHit {
     ObstacleHit obstacle;
     Tree tree;
@@ -68,7 +68,7 @@ struct ForestObstacleHit {
                                                                      const std::vector<Tree>& trees,
                                                                      const SpeciesMoves& moves,
                                                                      const Ray& ray);
-/// A vector of the world in the axes and metres in which a tree senses.
+/// `vector` (world, m) in the axes and metres in which the tree's hero sensed, before its scaling.
 [[nodiscard]] glm::dvec3
 in_sensing_metres(const ForestDocument& document, const Tree& tree, const glm::dvec3& vector);
 

@@ -210,7 +210,7 @@ ForestStreamer::settle(const Camera& camera,
         }
     }
     stats_.wait_seconds += watch.seconds();
-    // Squares that were made while step() waited were wanted in this step.
+    // Squares that were made while settle() waited count as wanted in this step.
     for (const SquareId& id : wanted.squares) {
         if (const auto found = ready_.find(id); found != ready_.end()) {
             found->second.last_wanted = step_;

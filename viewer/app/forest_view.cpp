@@ -683,7 +683,7 @@ bool ForestView::is_unsaved() const {
            (settings.edits.season && document_ != nullptr && is_scene(document_->files.front()));
 }
 
-/// Precondition: settings.edits.season.
+/// Precondition: settings.edits.season is set.
 Result<void> ForestView::save_season(const std::string& scene) {
     const Result<std::string> before = read_file(scene, {kMaxSourceBytes}, console_);
     if (!before) {

@@ -180,7 +180,7 @@ private:
     struct ShownSenses {
         SenseLook look;
         SpeciesMoves moves;
-        /// Counts of swaps, moments, trees and steps: equal counts mean that no tree has changed.
+        /// Counts of swaps, moments, trees and undo steps: if they are equal, no tree has changed.
         std::array<std::uint64_t, 4> content{};
         glm::dvec3 place{}; // target of the camera
 
@@ -248,7 +248,7 @@ private:
     std::optional<glm::vec2> pointed_;        // last place of hover(), until update() shows it
     bool has_outline_ = false;                // the outline of the tool is shown
     std::optional<ShownSenses> shown_senses_; // empty: none are shown
-    std::vector<Tree> sensing_trees_;         // trees of the drawing
+    std::vector<Tree> sensing_trees_;         // trees whose senses are drawn
     std::optional<GrabbedObstacle> grabbed_;  // while the mouse holds an obstacle
     bool begins_stroke_ = false;              // begin a stroke at the next point on the ground
     bool has_stroke_ = false;                 // a stroke has begun and not ended

@@ -47,8 +47,8 @@ void MakingProgress::note_step(LongStep step) {
     generation_ = 0;
 }
 
-/// Adds each generation to a running sum of the expected modules, because a plant may have up to
-/// 2^32 generations.
+/// Keeps a running sum of the expected modules, because summing up to 2^32 generations again for
+/// each report would take too long.
 void MakingProgress::note_derivation(const DerivationProgress& progress) {
     const std::lock_guard lock(mutex_);
     if (generation_ == 0) {

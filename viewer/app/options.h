@@ -88,7 +88,7 @@ struct ViewOptions {
     std::optional<PicturePixel> pick; // report what this pixel shows
     std::optional<TraceScope> why;    // with `pick`: scope of the trace of a plant's module
     std::string stats;                // JSON file; `-`: standard output
-    bool beside_window = false;       // draw on a thread beside the thread of a window
+    bool beside_window = false;       // another thread of this process has a window
     bool all_or_none = false;         // pictures of a series appear when all are complete
     std::atomic<std::uint32_t>* pictures_done = nullptr; // counts written pictures; may be null
 };

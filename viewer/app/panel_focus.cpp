@@ -11,7 +11,7 @@ namespace lsys::view {
 
 namespace {
 
-/// Windows that can have the keyboard beside dialogs, in the order of F6.
+/// Windows other than dialogs that can have the keyboard, in the order of F6.
 constexpr std::array<const char*, 8> kPanels = {"Panel", "Buttons",  kSourceButtons, kSourceLines,
                                                 "Trace", "Messages", "Making",       "Keys"};
 

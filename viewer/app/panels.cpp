@@ -270,8 +270,8 @@ void draw_trace_line(const TextLine& text) {
     }
 }
 
-/// Width of the area, in pixels at the default text size, below which panels give way to each
-/// other.
+/// Width of the area, in pixels at the default text size, below which a description of a pick hides
+/// the statistics, and the buttons of a trace need two rows.
 constexpr float kNarrowArea = 640.0F;
 
 void draw_trace_buttons(View& view, PanelState& panels, bool is_narrow) {

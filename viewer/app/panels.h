@@ -12,7 +12,7 @@ namespace lsys::view {
 [[nodiscard]] float panel_width(float scale);
 
 /// Width in pixels of the source pane on the right; 0 if it is not shown. The picture keeps at
-/// least half of the width that the panel on the left leaves.
+/// least 40 % of the width that the panel on the left leaves.
 [[nodiscard]] float source_width(const PanelState& panels, float window_width, float scale);
 
 /// Whether a control of the panels is held by the mouse or being edited.

@@ -41,7 +41,7 @@ struct Description {
     std::vector<std::string> lines;
     std::optional<PickedModule> module;  // module of a plant that drew the picked part
     std::string hint;                    // why there is no trace; may be empty
-    std::optional<FilePosition> place{}; // place in a file that wrote the module or branch
+    std::optional<FilePosition> place{}; // of the production that wrote the module or branch
 };
 
 /// Describes the module that drew a triangle, the production that wrote it, with place and
@@ -63,7 +63,7 @@ struct Description {
 
 /// Describes a branch with its id, age and hero, the production that wrote it, with place and
 /// generation, the number of its copies in the forest, and its tree; for an impostor only the tree.
-/// `trees_of_form`: numbers of the living trees of the same form, from Renderer::trees_of().
+/// `trees_of_form`: numbers of all trees of the same form, from Renderer::trees_of().
 /// `file`: the scene, or a grammar.
 [[nodiscard]] Outcome<Description> describe(const Picked& picked,
                                             const std::vector<std::uint32_t>& trees_of_form,

@@ -126,7 +126,7 @@ public:
     /// Writes changed constants, settings and the seed to the .lsys file, leaves the other bytes of
     /// the file unchanged, and reports the result in a note. Refuses another dialect, a compiled
     /// grammar, a file that has changed on disk since it was read, values that are set in included
-    /// files, and values whose plant is not shown.
+    /// files, and values that the shown plant does not have yet.
     void save() override;
     /// Writes changed files of the grammar, all or none, and reports `what` in a note; undo()
     /// restores the old files. Refuses files that have changed on disk.

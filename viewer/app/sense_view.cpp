@@ -18,7 +18,7 @@ using SenseColour = std::array<std::uint8_t, 4>;
 
 constexpr SenseColour kObstacleColour = {150, 165, 190, 110};
 constexpr SenseColour kMarkerColour = {60, 200, 230, 255};
-/// Colours of arrows, by the index of the environment.
+/// Colours of arrows, by the index of the environment in SensedPlant::parts; they repeat.
 constexpr std::array<SenseColour, 6> kArrowColours = {{{255, 210, 40, 255},
                                                        {235, 90, 60, 255},
                                                        {90, 170, 255, 255},
@@ -155,7 +155,7 @@ void add_obstacles(const SensedPart& part,
 void add_light(const SensedPart& part, double scale, SenseDrawer& drawer) {
     constexpr double kPart = 0.6; // diameter of a point / edge of a voxel
     if (part.kind == EnvironmentKind::Shadow) {
-        double most = 1.0; // a voxel without shadow may have more than 1
+        double most = 1.0; // max light of a voxel, at least 1; a voxel without shadow may have more
         for (const SensedVoxel& voxel : part.voxels) {
             most = std::max(most, voxel.value);
         }

@@ -21,7 +21,7 @@ struct SenseLook {
     bool obstacles = true;   // meshes and planes of kind Solid
     bool light = false;      // kinds Shadow and Sky: voxels or places, coloured by their light
     bool markers = false;    // kind Space: markers that are not removed yet
-    bool directions = false; // arrow in the direction that each module got as its answer
+    bool directions = false; // an arrow per module: the direction that the environment returned
 
     friend bool operator==(const SenseLook&, const SenseLook&) = default;
 };

@@ -53,8 +53,8 @@ public:
     SourcePaneLook look;
     bool has_focus = false; // keys scroll the pane
 
-    /// Takes newly loaded texts and the newly picked part from a view. `wake` is called on any thread when update()
-    /// has work. Returns whether the pane shows something new.
+    /// Takes newly loaded texts and the newly picked part from a view. `wake` is called on any
+    /// thread when update() has work. Returns whether the pane shows something new.
     bool update(View& view, const std::function<void()>& wake);
     /// Shows and selects the statement at a place. Does nothing if its file is not shown.
     void show(const FilePosition& place);

@@ -38,8 +38,8 @@ constexpr GLuint kNearShadowTextures = 7; // first unit of kNearMaps; in light.g
 struct NearMap {
     float radius;        // m
     std::uint32_t level; // level of the branches that cast shadows
-    // Depth of the map divided by its width where shadows are soft: casters far above the place
-    // widen the edge of the shadow. kMapDepths of light.glsl has it too.
+    // With soft shadows: depth of the map divided by its width. The map must reach casters far
+    // above the eye, because they widen the edge of the shadow. Also kMapDepths of light.glsl.
     float depth;
 };
 constexpr std::array<NearMap, kNearMaps> kNearMapSpecs = {{{8.0F, 0, 4.0F}, {30.0F, 2, 1.0F}}};
@@ -279,7 +279,7 @@ public:
             Result<ProgramObject> made =
                 make_program(device_, shaders_, "copy.vert.glsl", "copy.frag.glsl");
             if (!made) {
-                return false; // shown pictures need not change
+                return false; // the picture stays without refinement
             }
             copy_ = std::move(made.value());
         }

@@ -99,7 +99,7 @@ struct Frame {
 struct FrameStats {
     std::uint64_t draws = 0; // number of draw calls
     std::uint64_t triangles = 0;
-    double gpu_milliseconds = 0.0; // for passes of a forest only, like FrameTimes::gpu
+    double gpu_milliseconds = 0.0; // set for passes of a forest; measured as FrameTimes::gpu
 };
 
 /// Processor that chooses the trees and branches in a picture of a forest. Pictures are the same
@@ -138,7 +138,7 @@ struct ForestFrameStats {
     std::uint64_t drawn_branches = 0;
     std::uint32_t expanded_trees = 0; // whose branches were made for this picture
     std::uint32_t waiting_trees = 0;  // near trees, drawn as impostors until they are expanded
-    float detail = 1.0F;              // factor of heights; below 1 to stay within max_triangles
+    float detail = 1.0F;              // factor of heights in pixels; below 1 to keep max_triangles
     FrameStats branches;
     FrameStats impostors;
     FrameStats terrain;
@@ -181,7 +181,7 @@ struct Picked {
     PickedKind kind = PickedKind::Nothing;
     glm::vec3 place{};          // m; set for all kinds except Nothing
     std::uint64_t triangle = 0; // Plant: number of the triangle in the mesh of show_plant()
-    std::uint32_t instance = 0; // Branch: index in the cache of the form
+    std::uint32_t instance = 0; // Branch: index in InstanceCache::instances of the form
     std::uint32_t form = 0;     // Branch, Impostor: index in ForestModel::forms
     Tree tree;                  // Branch, Impostor
     std::uint32_t trees = 0;    // Cluster: number of trees

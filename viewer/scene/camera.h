@@ -27,8 +27,8 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-/// Side in m of the lattice on which the origins of far cameras lie. Its points are sums of few
-/// powers of two, and a multiple of the side of every cell of TerrainLod.
+/// Side in m of the lattice on which the origins of far cameras lie: a multiple of the side of
+/// every cell of TerrainLod. Coordinates of lattice points are sums of few powers of two.
 inline constexpr double kOriginStep = 4096.0;
 /// The lattice point nearest to a place of the world, at altitude 0.
 [[nodiscard]] glm::dvec3 nearest_origin(const glm::dvec3& place);

@@ -135,7 +135,7 @@ struct DrawLists {
     std::uint64_t triangles = 0;       // triangles of the branches
     std::uint32_t expanded = 0;        // number of trees expanded for this picture
     std::uint32_t waiting = 0;         // near trees without branches yet, drawn as impostors
-    float detail = 1.0F;               // factor of heights; below 1 to stay within max_triangles
+    float detail = 1.0F;               // factor of heights in pixels; below 1 to keep max_triangles
 };
 
 /// A square of the ground with its trees.
@@ -203,8 +203,8 @@ public:
     select(const Frustum& frustum, const LodOptions& options, GroundHorizon* ground = nullptr);
 
     [[nodiscard]] const ForestModel& model() const { return model_; }
-    /// Trees of the forest, sorted by cell. Indices for lod_tree() that follow are those of added
-    /// trees.
+    /// Trees of the forest, sorted by cell. Indices for lod_tree() from trees().size() on are those
+    /// of added trees.
     [[nodiscard]] std::span<const LodTree> trees() const { return trees_; }
     [[nodiscard]] const LodTree& lod_tree(std::uint32_t number) const {
         return number < trees_.size() ? trees_[number] : added_.at(number - first_added());

@@ -154,7 +154,7 @@ Sphere ForestLod::swaying(const Sphere& sphere, const LodTree& tree) const {
 
 Bounds ForestLod::impostor_box(const LodTree& tree, const glm::vec3& eye) const {
     // Impostors have a margin, and impostors seen from above lean back, see shaders/impostor.glsl.
-    constexpr float kLevel = 0.15F; // sine of the max elevation at which all show side views
+    constexpr float kLevel = 0.15F; // sine of the max elevation at which no impostor leans back
     const Sphere sphere = impostor_sphere(tree);
     const float wide = kImpostorMargin * sphere.radius;
     const bool is_level =

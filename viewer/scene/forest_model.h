@@ -87,8 +87,8 @@ struct KnownModel {
 };
 
 /// Builds the model; reuses meshes of `known`. `user_meshes`: by species. `options.level`: level of
-/// the meshes in the finest level of trees. Forest and terrain must outlive the model. Returns the
-/// reason if making the model was stopped, as make_instance_meshes() does.
+/// the meshes of tree level 0; tree level n adds n. Forest and terrain must outlive the model.
+/// Returns the reason if making the model was stopped, as make_instance_meshes() does.
 [[nodiscard]] std::optional<Stop>
 make_forest_model(const Forest& forest,
                   const Terrain& terrain,

@@ -16,8 +16,8 @@ namespace {
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
 constexpr float kFirst = 2.0F;  // m, first distance; nearer ground counts as occluding nothing
 constexpr float kRatio = 1.06F; // each distance divided by the distance before it
-/// Added to slopes. Covers the error of replacing the arc between two directions by a straight line
-/// between its ends.
+/// Added to the slope of a box before it is compared with the horizon. Covers the error of
+/// replacing the arc between two directions by a straight line between its ends.
 constexpr float kMargin = 5e-4F;
 
 /// Number of the step at a distance in m, as a real number.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stable radix sort of branches by key, eight bits a pass (Satish, Harris and Garland 2009,
 // "Designing Efficient Sorting Algorithms for Manycore GPUs"). COUNT counts the digits of each
-// workgroup; SUM makes prefix sums, in pass 0 also first branches of keys; else branches are moved.
+// workgroup; SUM makes prefix sums, in pass 0 also first branches of keys. Neither: moves branches.
 #include "culling.glsl"
 layout(location = 0) uniform uint shift;
 const uint kDigits = 256u;

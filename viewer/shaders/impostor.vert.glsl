@@ -15,8 +15,8 @@ flat out uint item;
 #endif
 #if QUALITY > 0 && !defined(SHADOW)
 #define TURNS
-// The second nearest view. x: offset of its tile in the atlas from the tile of the nearest view;
-// yz: range of the dither thresholds of its pixels.
+// The second nearest view. x: offset of its tile in the atlas from the tile of the nearest view, in
+// texture coordinates; yz: range of the dither thresholds of its pixels.
 flat out vec3 next_view;
 #ifndef DEPTH
 flat out mat3 next_world_from_impostor;

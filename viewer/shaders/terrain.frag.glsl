@@ -28,7 +28,7 @@ layout(location = 1) out vec4 motion; // temporal.frag.glsl
 #endif
 #ifdef PICTURE
 #if QUALITY > 0
-// Noise of 0 to 1 with a period of 1 between its random values.
+// Random value of a unit cell, 0 to 1. noise_at() interpolates between the values of four cells.
 float random_at(vec2 cell) {
     return fract(52.9829189 * fract(dot(mod(cell, 289.0), vec2(0.06711056, 0.37583715))));
 }

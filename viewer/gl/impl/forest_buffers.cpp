@@ -286,7 +286,7 @@ void ForestBuffers::upload(ForestModel& model,
             }
             for (const std::uint16_t number : numbers) {
                 MaterialRecord record = records[number];
-                record.kind &= (1U << kLayerShift) - 1; // other pictures may move the layer
+                record.kind &= (1U << kLayerShift) - 1; // the layer depends on other pictures
                 digest = digest_of(std::span<const MaterialRecord>(&record, 1), digest);
             }
             digest = digest_of(std::span<const Vertex>(packed), digest);

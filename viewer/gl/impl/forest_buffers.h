@@ -33,7 +33,7 @@ inline constexpr std::size_t kBranchClasses = 4;
 
 /// Set of buffers that uploads and draws use. Impostor: for baking, which happens between pictures
 /// of the forest. Shadow: for branches that cast shadows near the eye; its trees are those of
-/// Forest.
+/// the set Forest.
 enum class BufferSet : std::uint8_t { Forest, Impostor, Shadow };
 
 struct DrawCommand {         // layout of glMultiDrawElementsIndirect
@@ -77,7 +77,7 @@ public:
 
     /// Uploads meshes, forms, materials and pictures; frees the meshes of the model.
     void upload(ForestModel& model, const ImpostorPlan& plan, const MaterialTextures& textures);
-    /// Uploads forms again, for other trees of the same meshes. Precondition: upload() was called.
+    /// Uploads forms again if only trees have changed. Precondition: upload() was called.
     void upload_forms(const ForestModel& model, const ImpostorPlan& plan);
     /// Sets the colours of the branches. Precondition: upload() was called.
     void set_colours(const ForestModel& model, BranchColours by);

@@ -120,7 +120,7 @@ public:
     /// not wait.
     [[nodiscard]] const CullingState* finished_state() const;
     [[nodiscard]] double gpu_milliseconds() { return timer_.milliseconds(); }
-    /// A branch of the last picture. Waits until the device has made the list of branches.
+    /// Entry `slot` of the branches of the last picture. Waits until the device has made them.
     [[nodiscard]] PoolBranch branch(std::uint32_t slot) const;
     [[nodiscard]] CulledLists read_lists() const;
     [[nodiscard]] std::uint64_t byte_count() const;
@@ -157,7 +157,7 @@ private:
     void begin(const ForestLod& lod, const ForestBuffers& buffers, Block& block);
     /// Computes horizon_, unless eye and heights are those of the last picture.
     void make_horizon(const View& view);
-    void list_trees(std::uint32_t cells); // visible ones, of the first `cells` cells and added
+    void list_trees(std::uint32_t cells); // visible trees: of the first `cells` cells; added ones
     /// Chooses levels for candidates, then lists and sorts their visible branches.
     void list_branches();
 

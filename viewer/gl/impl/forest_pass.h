@@ -104,7 +104,7 @@ public:
     void draw_picked(MaterialTextures& textures);
     /// The part whose kind and index draw_picked() has written.
     [[nodiscard]] Picked picked(PickedKind kind, std::uint32_t index) const;
-    /// Numbers of the living trees of a form.
+    /// As Renderer::trees_of().
     [[nodiscard]] std::vector<std::uint32_t> trees_of(std::uint32_t form) const;
 
     [[nodiscard]] ForestSizes sizes() const;

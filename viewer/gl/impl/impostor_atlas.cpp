@@ -132,7 +132,7 @@ void ImpostorAtlas::list_missing() {
             pending_.push_back(layer);
         }
     }
-    // Bakes first one layer of each form that has no picture yet.
+    // First bakes one layer of each form without pictures, which stands in for its other layers.
     const auto waits = [this](std::uint32_t layer) {
         for (std::uint32_t other = 0; other < layers_; ++other) {
             const bool is_earlier = other < layer && keys_[other] != target_keys_[other];

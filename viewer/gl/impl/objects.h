@@ -94,9 +94,9 @@ using ProgramObject = Object<ProgramKind>;
     return {device, name};
 }
 
-/// A buffer on the device. fill() replaces the OpenGL object instead of overwriting its contents,
-/// so bind the buffer afterwards: NVIDIA drivers (580) execute two writes of one range in the wrong
-/// order if no draw call reads the range between them.
+/// A buffer on the device. Bind it after fill(), which replaces the OpenGL object. fill() does not
+/// overwrite the contents, because NVIDIA drivers (580) execute two writes of one range in the
+/// wrong order if no draw call reads the range between them.
 class Buffer {
 public:
     Buffer() = default;

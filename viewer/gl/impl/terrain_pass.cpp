@@ -32,7 +32,7 @@ constexpr GLint kNoiseShifts = 21; // 3 locations
 constexpr GLint kCanopy = 24;
 constexpr GLint kCanopyRange = 25;
 constexpr std::array<double, 3> kNoiseTiles = {173.0, 37.0, 3.1}; // m, in ground_look.glsl
-constexpr double kWidestTile = 611.0;                             // m, of the rotated tile
+constexpr double kWidestTile = 611.0;                             // m, rotated tile
 constexpr std::uint32_t kNoiseTexels = 128;
 constexpr GLsizei kPatchIndices = 6 * kPatchCells * kPatchCells;
 
