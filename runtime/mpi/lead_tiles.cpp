@@ -68,7 +68,7 @@ public:
             console_.error(late);
             status_ = ExitStatus::Limit;
         }
-        console_.io().err << std::flush; // before the ranks end, which mpirun notices
+        console_.io().err << std::flush; // mpirun may end all ranks once one exits with an error
         for (int rank = 1; rank < ranks_.count(); ++rank) {
             ranks_.send(rank, MessageKind::End, {static_cast<std::uint64_t>(status_)}, "");
         }

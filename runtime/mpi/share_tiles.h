@@ -17,9 +17,9 @@ namespace lsys::mpi {
 
 /// Writes the tileset as rank 0. Returns the exit status of the job, which is the same on all
 /// ranks. All other ranks must call join_tiles() with an equal command. Precondition:
-/// `command.run.threads` is above 0. `console` prints the messages of the job. `late` returns an
-/// error if the time of the job has passed, and an interruption then ends it with
-/// ExitStatus::Limit. Throws std::bad_alloc.
+/// `command.run.threads` is above 0. `console` prints the messages of the job. `late` returns a
+/// message if the time of the job has passed, else an empty text; an interrupted job that is late
+/// ends with ExitStatus::Limit. Throws std::bad_alloc.
 [[nodiscard]] ExitStatus lead_tiles(const lsc::TilesCommand& command,
                                     Ranks& ranks,
                                     const Console& console,

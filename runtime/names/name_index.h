@@ -84,8 +84,8 @@ struct NameIndex {
     [[nodiscard]] static bool are_same(const NameUse& a, const NameUse& b);
 };
 
-/// Parses a grammar and its included files. The places of a grammar of another program are in its
-/// own text.
+/// Parses a grammar and its included files. If the grammar is in the dialect of another program,
+/// places are offsets in its original text, not in a translation to .lsys.
 void parse_grammar(const std::string& path,
                    std::string text,
                    Dialect dialect,

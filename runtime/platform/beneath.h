@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files below a folder that no path leaves: for names from grammars that are not trusted.
+// Opens and lists files below a folder; no path leads out of it. For names in untrusted grammars.
 #pragma once
 
 #include "runtime/platform/file.h"

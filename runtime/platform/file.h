@@ -98,8 +98,8 @@ void remove_file(const char* path) noexcept;
 [[nodiscard]] Reason exchange_files(const std::string& one, const std::string& other);
 
 /// Locks a file that create_file() has made, until it is closed or its process ends. False: another
-/// process has found the file unlocked and removes it. True without a lock on file systems that
-/// have none; remove_unlocked_file() leaves files there.
+/// process has found the file unlocked and removes it. True, without a lock, on file systems
+/// that have no locks; there WithoutLocks decides what remove_unlocked_file() does.
 [[nodiscard]] bool lock_new_file(const File& file);
 /// Keeps the lock of a file beyond File::close(), until `lock` is closed. The file may be renamed
 /// and removed meanwhile. `path`: its present path.

@@ -39,7 +39,7 @@ public:
                             const std::atomic<bool>* cancelled,
                             std::string& answer);
 
-    /// Closes the standard input of the program, which has half a second to end, and ends it.
+    /// Closes the program's standard input, waits up to half a second for its end, and kills it.
     void finish();
 
     /// How the program has ended: "exit status 3" or "signal 9"; after Reply::Ended. Empty if it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Functions of Python that answer environments.
+// Python functions that give the answers of environments.
 #include "runtime/python/arrays.h"
 #include "runtime/python/call.h"
 

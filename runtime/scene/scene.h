@@ -134,7 +134,7 @@ struct SceneSpecies {
 struct Scene {
     SceneTerrain terrain;
     std::vector<SceneSpecies> species; // at least one
-    /// Has the key, the region of the terrain and one entry per `species`; no density_map.
+    /// `key`, the region of the terrain and one entry per `species` are set, `density_map` is not.
     PlacementOptions placement;
     Painting painting; // trees that the user has added and erased
     InstancingGoal goal;

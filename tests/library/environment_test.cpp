@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Environments of kind `program` that functions of the caller answer.
+// Environments of kind `program`, answered by functions of the caller.
 #include <catch2/catch.hpp>
 
 #include <cmath>

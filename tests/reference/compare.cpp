@@ -171,7 +171,7 @@ private:
         });
     }
 
-    // Every generation from the saved state in the middle on.
+    // Saves the state of the middle generation, and checks every generation continued from it.
     bool resumes_alike() {
         const std::uint32_t half = derivation_.generations / 2;
         const std::string state = (folder_.path() / "half.state").string();
@@ -238,7 +238,7 @@ private:
         });
     }
 
-    // Beside the grammar, because the files that it names are relative to it.
+    // A file beside the grammar, because bytecode names files relative to its own folder.
     [[nodiscard]] std::string compiled_file() const {
         return (std::filesystem::path(file_).parent_path() / "out.lsb").string();
     }

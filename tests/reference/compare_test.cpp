@@ -90,8 +90,8 @@ TEST_CASE("choices at the edge of a weight") {
     }
 }
 
-// Section 4: a production that matches no module causes no error; a successor that is applied and a
-// condition that is tested do.
+// Section 4: values in a production that matches no module cause no error; values in a successor
+// that is applied, and in a condition that is tested, do.
 TEST_CASE("a value that is never finite is an error only where it is computed") {
     Grammar grammar;
     add_axiom(grammar, letters("A"));

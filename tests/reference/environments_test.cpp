@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The slow environments with answers that are known without them.
+// Checks the slow environments against answers in closed form.
 
 #include "tests/reference/environments/crowd.h"
 #include "tests/reference/environments/exact.h"

@@ -25,8 +25,8 @@ struct Case {
 
 Case generate(std::uint64_t seed);
 
-// A plant whose words hold sense modules and whose grammar has environments. Its seeds are not those
-// of generate().
+// A plant whose words hold sense modules and whose grammar has environments. The same seed gives
+// unrelated random numbers here and in generate().
 Case generate_plant(std::uint64_t seed);
 
 } // namespace lsys::reference

@@ -332,8 +332,8 @@ private:
         }
     }
 
-    // Chooses the value by -D, if any, when the constant is defined, because later statements use
-    // it.
+    // Decides whether -D replaces the value of a constant, and by which value. Done when the
+    // constant is defined, because later statements use the value.
     void define(const Statement& statement) {
         ExpressionMaker expressions(random_, constants_);
         const Scope scope;

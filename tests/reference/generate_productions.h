@@ -38,7 +38,7 @@ public:
 
 private:
     const Species& any_species(bool letters);
-    // An argument of a module. In a plant that senses, lengths and turns have the size of a plant's.
+    // An argument of a module. In a plant that senses, most lengths and turns are those of a plant.
     Expr argument(const Species& species, const Scope& scope);
     const Species& active_species(bool letters);
     Skeleton skeleton(int length, bool letters, bool polygon);

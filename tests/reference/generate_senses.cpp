@@ -227,7 +227,7 @@ std::vector<std::pair<std::string, std::string>> plant_settings(Random& random) 
         {"step_scale", {"0.7", "1.1"}},
         {"turtle", {"lsys", "thesis", "abop"}},
         {"tropism", {"0 -1 0 0.2", "0.3 1 -0.2 0.31", "1 0 0 -0.5"}},
-        {"height", {"3"}}, // places are those before
+        {"height", {"3"}}, // no effect on places: the plant is scaled later
         {"pipe", {"2 0.05"}}};
     std::vector<std::pair<std::string, std::string>> settings;
     for (const auto& [key, values] : kSettings) {

@@ -26,7 +26,7 @@ struct PassInput {
     Stage stage = Stage::Rewrite;
 };
 
-// Rewrites the word once. Counts the productions applied in `derivation`, as all functions here.
+// Rewrites the word once. Like all functions here, counts in `derivation` the productions applied.
 Word run_pass(const PassInput& pass, Derivation& derivation);
 
 // The word of an age after its decomposition.

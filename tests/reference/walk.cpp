@@ -33,7 +33,7 @@ void rotate(Vector& v, const Vector& k, const SineCosine& angle) {
 // An open polygon.
 struct Polygon {
     std::vector<Vector> points; // of `.`
-    std::vector<Vector> path;   // starts and ends of `F` and `f`, each once in a row
+    std::vector<Vector> path;   // starts and ends of `F` and `f`; equal successive points once
 };
 
 // "In a polygon without any `.`, the start and the end of every `F` and `f` are its vertices. A last
@@ -52,7 +52,7 @@ std::vector<Vector> corners_of(const Polygon& polygon) {
     return corners;
 }
 
-// Half the length of Newell's vector, in the cell of the mean of the corners.
+// A polygon as an organ: half the length of Newell's vector as area, the mean corner as middle.
 Organ organ_of(const std::vector<Vector>& corners) {
     Organ organ;
     Vector normal{};
@@ -92,7 +92,7 @@ public:
     [[nodiscard]] const Pose& pose() const { return now_.pose; }
     [[nodiscard]] const std::vector<Organ>& organs() const { return organs_; }
 
-    // Follows a module. Returns the failure that it is.
+    // Follows a module. Returns a failure for a `]` or `}` without its opening bracket.
     std::optional<Failure> follow(const Module& module) {
         const std::string& name = module.name;
         const auto object = system_.objects.find(name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Resolves a path name by name, each relative to the descriptor of the folder before it and without
+// Opens each component of a path relative to the descriptor of the folder before it and without
 // following links, so that no link can be exchanged between a check and its use. Linux has
 // openat2(RESOLVE_BENEATH) for this, but not before 5.6, and sandboxes often forbid it.
 #include "runtime/platform/beneath.h"

@@ -44,8 +44,8 @@ std::string root_of(const std::string& folder) {
     return folder.empty() ? "." : folder;
 }
 
-/// Whether a relative name may be opened: a name with `:` has a drive or a stream, one that begins
-/// with a separator a root. Devices such as CON have no disk, so open_beneath() refuses them.
+/// Whether a name is relative: a `:` marks a drive or a stream, and a separator at the start marks
+/// a root. Device names such as CON pass; open_beneath() refuses them, since they are on no disk.
 bool is_relative(const std::string& name) {
     return name.find(':') == std::string::npos && !name.starts_with('/') && !name.starts_with('\\');
 }

@@ -291,7 +291,7 @@ void remove_unlocked_file(const std::string& path, WithoutLocks /*without_locks*
 }
 
 std::size_t max_open_files() {
-    return 2048; // of _open(); the C library has room for 8192
+    return 2048; // well below the 8192 files that _open() can have open at once
 }
 
 std::uint64_t random_bits() {

@@ -259,7 +259,7 @@ def _forest_init(self, scene, *, defines=None, settings=None, generations=None, 
     `lsc forest`, with underscores, that replace values of the scene, as in `count=500`,
     `placement="poisson-disk"`, `rho=0`, and the options of all calls.
     """
-    # __new__ has grown it.
+    # _forest_new() has grown the forest already.
 
 
 def _whole(name, values, most):

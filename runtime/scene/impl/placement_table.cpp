@@ -85,7 +85,7 @@ void read_placement_table(const SceneValue* table, Scene& scene, Diagnostics& di
     const MethodRow& method = kMethods[found.value_or(0)];
     const std::string reason =
         fmt::format("the method `{}` reads {}", method.name, keys_of(method));
-    /// Returns whether the method reads `key`, which is `wanted`; if it does not, reports the key
+    /// `wanted`: whether the method reads `key`. Returns `wanted`; if it is false, reports the key
     /// if present.
     const auto reads = [&](bool wanted, std::string_view key) {
         if (!wanted) {

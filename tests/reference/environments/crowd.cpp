@@ -28,7 +28,7 @@ double rounded_sum(const std::vector<double>& numbers) {
         const double rest = part - (next - sum);
         sum = next;
         if (rest != 0) {
-            // Half a unit is rounded to even although more bits follow in the same direction.
+            // If `rest` is half a unit, `sum` was rounded to even, ignoring smaller parts.
             if (!parts.empty() && (parts.back() < 0) == (rest < 0)) {
                 const double twice = 2 * rest;
                 const double moved = sum + twice;

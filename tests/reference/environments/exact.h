@@ -14,7 +14,7 @@ struct SineCosine {
     double cosine = 1;
 };
 
-// Every finite angle.
+// Accepts every finite angle.
 SineCosine sine_cosine_of_degrees(double degrees);
 
 // Precondition: the angle is between -1000 and 1000 radians.

@@ -26,7 +26,7 @@ struct VoxelHash {
     }
 };
 
-// Number of pyramids that cover a voxel with a layer.
+// Counts, for each voxel and layer, the pyramids that cover the voxel with this layer.
 class Pyramids {
 public:
     void add(const Voxel& tip, std::int64_t levels) {

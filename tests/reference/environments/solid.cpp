@@ -68,7 +68,7 @@ std::vector<double> nearest_of_meshes(const std::vector<Surface>& meshes, const 
 }
 
 Answers solid_answers(const Solid& solid, const std::vector<Place>& places) {
-    std::vector<Surface> bounds; // of what has an inside
+    std::vector<Surface> bounds; // the closed meshes, which have an inside
     for (const Surface& mesh : solid.meshes) {
         if (is_closed(mesh)) {
             bounds.push_back(oriented(mesh));

@@ -86,7 +86,7 @@ Markers::Markers(const Space& space, std::uint64_t seed, std::uint32_t number)
             }
         }
         markers_.push_back(point);
-        m |= 63U; // the first of each 64 points inside is a marker
+        m |= 63U; // of each 64 drawn points, the first one inside the shape is a marker
     }
 }
 

@@ -30,8 +30,8 @@ bool is_closed(const Surface& surface);
 Surface oriented(const Surface& surface);
 
 // How often the surface winds around the place: the sum of the solid angles of its triangles (van
-// Oosterom & Strackee 1983) in units of 4 pi, rounded. Precondition: the surface is closed and does
-// not hold the place.
+// Oosterom & Strackee 1983) in units of 4 pi, rounded. Precondition: the surface is closed, and
+// the place is not on it.
 int winding_number(const Surface& surface, const Vector& place);
 
 } // namespace lsys::reference

@@ -162,6 +162,6 @@ TEST_CASE("special values of exact functions are those of IEEE 754") {
     CHECK(exact_atan2(1.0, 1.0) == kPi / 4.0);
     CHECK(exact_atan2(0x1p-1074, 0x1p+1023) == 0.0);
     CHECK(exact_atan2(0x1p-1074, 1.0) == 0x1p-1074);
-    CHECK(exact_atan2(0x1.8p-1073, 0x1p+1) == 0x1p-1074); // 1.5 units, less a bit
+    CHECK(exact_atan2(0x1.8p-1073, 0x1p+1) == 0x1p-1074); // just below 1.5 * 2^-1074
     CHECK(std::isnan(exact_atan2(std::nan(""), 1.0)));
 }

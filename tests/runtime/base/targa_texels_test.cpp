@@ -19,7 +19,7 @@ struct TargaShape {
     unsigned rows = 1;
     unsigned bits = 24;
     unsigned description = 0x20; // from the top
-    unsigned colours = 0;        // of a map of 24 bits
+    unsigned colours = 0;        // number of entries of the colour map, 24 bits each
 };
 
 std::string targa_header(const TargaShape& shape) {
@@ -72,7 +72,7 @@ TEST_CASE("a TGA picture is read by rows from the top") {
     CHECK(targa_texels(targa_header({3, 1, 1, 8}) + "\x07") == std::vector<int>{7, 7, 7, 255});
     CHECK(targa_texels(targa_header({3, 1, 1, 16, 0x28}) + "\x07\x09") ==
           std::vector<int>{7, 7, 7, 9});
-    // 0 11111 10000 00001: red, green, blue of 5 bits; the opacity of the first is not stored.
+    // 0 11111 10000 00001: 5 bits each of red, green, blue. The first picture stores no opacity.
     CHECK(targa_texels(targa_header({2, 1, 1, 15}) + "\x01\x7e") ==
           std::vector<int>{255, 132, 8, 255});
     CHECK(targa_texels(targa_header({2, 2, 1, 16, 0x21}) + "\x01\x7e\x01\xfe") ==

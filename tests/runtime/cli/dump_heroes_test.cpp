@@ -180,7 +180,7 @@ TEST_CASE("a listing of forms shows the requested rows") {
         write_text(folder / "many.lsys", text + "; #q : A : ~ 0.5 : F;");
         return folder / "many.lsys";
     };
-    // 24 branches: n choose i forms have i exchanged branches. The probabilities of all forms must
+    // 24 choose i forms have i exchanged branches of the 24. The probabilities of all forms must
     // sum to that of the production.
     const std::string file = write(24);
     const std::vector<std::string> rows =

@@ -179,7 +179,7 @@ TEST_CASE("the memory of the tables of neighbours is predicted") {
         ContextTables tables(plan);
         const std::uint64_t predicted = tables.held_bytes_after(derivation.word());
         REQUIRE(tables.prepare(plan, derivation.word()));
-        // The prediction has an entry too many per table that has one per module, not per gap.
+        // Predicted: module count + 1 entries per table; left_ and jump_ have one less.
         const std::uint64_t surplus = head == "A(x) > A(y)" ? 0 : sizeof(std::uint32_t);
         CHECK(tables.held_bytes() == predicted - surplus);
     }

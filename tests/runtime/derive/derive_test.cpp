@@ -212,7 +212,7 @@ TEST_CASE("threads keep to their own chunks of a word") {
         CHECK(std::count(parameters.begin(), parameters.end(), 61.0F) == 4000);
     }
     SECTION("codes of two bytes") {
-        // With so many codes no census is taken, which would leave the word to one thread.
+        // So many codes prevent a census, with which one thread would write the whole word.
         builder.axiom(axiom_of("B ")).unused_symbols(5000);
         const Bytecode bytecode = builder.build();
         Derivation derivation(bytecode, options);

@@ -21,7 +21,7 @@ namespace {
 
 using test::BytecodeBuilder;
 
-/// Answers every module P(x) with the number of sense modules answered so far, which is its state.
+/// Answers each sense module with the number of sense modules answered so far; state() saves it.
 class CountingSense : public WordSense {
 public:
     explicit CountingSense(const Bytecode& bytecode) : bytecode_(bytecode) {}

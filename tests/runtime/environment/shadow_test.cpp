@@ -83,7 +83,7 @@ TEST_CASE("shadow reaches 255 layers down, and no further") {
                                    place_at(200, 199, 0)};
     const Numbers numbers = ask_shadow(declared, places, {}).numbers;
     CHECK(numbers[0] == 0.75F);
-    CHECK(numbers[12] == 1.0F); // the layer of the third place reaches 57 voxels there
+    CHECK(numbers[12] == 1.0F); // at y = 199 the third place shades x <= 57; this one is at 200
     // Many places: those of the upper row, y = 256, are too high to shade the first place.
     declared.strength = 0.25F / 1024.0F;
     places.resize(1);

@@ -90,7 +90,7 @@ inline reference::Surface surface_of(const EnvironmentMesh& mesh) {
     return surface;
 }
 
-/// The answer of kind Solid at a place without its sign.
+/// The answer of kind Solid at a place; its distance has no sign.
 inline std::vector<float> nearest(const std::vector<EnvironmentMesh>& meshes,
                                   const Vector3& place) {
     std::vector<reference::Surface> surfaces;

@@ -281,7 +281,7 @@ TEST_CASE("the sign is right in line with vertices and edges, and next to the su
             place.position = {vertex[0] * along, vertex[1] * along, vertex[2] * along};
             places.push_back(place);
             is_inside.push_back(along < 1.0);
-            // In the height and depth of the vertex, out of the sphere to the left.
+            // At the y and z of the vertex, left of the sphere.
             place.position = {vertex[0] - 2.5, vertex[1], vertex[2]};
             places.push_back(place);
             is_inside.push_back(false);

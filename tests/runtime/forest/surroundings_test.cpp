@@ -155,11 +155,11 @@ TEST_CASE("of neighbours at one distance that with the lower number is the first
     std::vector<Tree> trees{tree_at(0.0F, 0.0F, 5), tree_at(2.0F, 0.0F, 9), tree_at(0.0F, 2.0F, 3)};
     sense_surroundings(two_species(), trees, trees, 1);
     CHECK(case_of(trees[0]) == Surroundings::Adjacent);
-    CHECK(apart(static_cast<double>(trees[0].yaw), -90.0) < 1e-3); // 3 at -90, then 9 at 0
-    std::swap(trees[1].number, trees[2].number);                   // 3 at 0, 9 at -90, in quarter 3
+    CHECK(apart(static_cast<double>(trees[0].yaw), -90.0) < 1e-3); // tree 3 at yaw -90, tree 9 at 0
+    std::swap(trees[1].number, trees[2].number);                   // tree 3 at 0, 9 in quarter 3
     sense_surroundings(two_species(), trees, trees, 1);
     CHECK(apart(static_cast<double>(trees[0].yaw), -90.0) < 1e-3);
-    trees.push_back(tree_at(2.0F, 0.0F, 1)); // at the place of number 3
+    trees.push_back(tree_at(2.0F, 0.0F, 1)); // at the place of tree 3
     trees.push_back(tree_at(0.0F, 0.0F, 2)); // at the place of the tree: takes no quarter
     sense_surroundings(two_species(), trees, trees, 1);
     CHECK(case_of(trees[0]) == Surroundings::Adjacent);
@@ -248,8 +248,8 @@ void sense_directly(const Forest& forest, const std::vector<Tree>& all, Tree& tr
     }
     bool taken[4] = {};
     for (const Other& other : others) {
-        const double c = front.x * other.x + front.z * other.z; // cosine and sine of the yaw
-        const double s = front.z * other.x - front.x * other.z; // from front, times the lengths
+        const double c = front.x * other.x + front.z * other.z; // cosine of the yaw from front
+        const double s = front.z * other.x - front.x * other.z; // sine; both times the lengths
         taken[0] = taken[0] || (c > 0.0 && s >= -c && s < c);
         taken[1] = taken[1] || (s > 0.0 && c <= s && c > -s);
         taken[2] = taken[2] || (c < 0.0 && s <= -c && s > c);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `lsys/plant`: the plant of a grammar as GLB, with the places that drew its parts.
+// `lsys/plant`: the plant of a grammar as GLB, with the places in the text that drew its parts.
 #include "tests/runtime/languageserver/editor.h"
 
 #include <catch2/catch.hpp>

@@ -164,7 +164,7 @@ TEST_CASE("only stems at the ground flare", "[mesh][flare]") {
     for (std::size_t i = 1; i < skeleton.segments.size(); ++i) {
         CHECK_FALSE(stands_on_ground(skeleton.segments[i], flare));
     }
-    Segment cut = skeleton.segments[0]; // a branch of a forest, in its own place
+    Segment cut = skeleton.segments[0]; // as if meshed apart from its parent
     cut.cut = true;
     CHECK_FALSE(stands_on_ground(cut, flare));
     Segment high = skeleton.segments[0];
@@ -186,7 +186,7 @@ TEST_CASE("a collar eases from a wide ring to the radius of the branch", "[mesh]
     CAPTURE(factor);
     plant.skeleton().tube_shape.collar = factor;
     const std::vector<Joint> joints = joints_of(plant.skeleton(), at_level(0), 4);
-    // Base, the end of the parent, half of the collar, a joint at 0.6 m, its end, 1.2 m, the tip.
+    // Base, end of the parent, middle of the collar, 0.6 m, end of the collar, 1.2 m, tip.
     const float wide = std::min(0.1F * factor, 0.3F);
     const std::vector<float> arcs{0.0F, 0.3F, 0.525F, 0.6F, 0.75F, 1.2F, 1.8F};
     REQUIRE(joints.size() == arcs.size());

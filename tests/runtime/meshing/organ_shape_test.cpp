@@ -215,7 +215,7 @@ TEST_CASE("radii follow the Hermite curve of their tangents") {
     REQUIRE(stations.size() == 13);
     for (std::size_t i = 0; i < stations.size(); ++i) {
         const double t = static_cast<double>(i) / 12.0;
-        // The basis functions of Hermite; the flag of the second point scales both tangents.
+        // Hermite's basis functions; b's per_chord scales both radius tangents by the chord, 2 m.
         const double from = 2 * t * t * t - 3 * t * t + 1;
         const double to = -2 * t * t * t + 3 * t * t;
         const double out = t * t * t - 2 * t * t + t;

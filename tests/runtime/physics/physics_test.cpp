@@ -174,7 +174,7 @@ TEST_CASE("a rod in wind comes to rest at the closed form, downwind") {
 }
 
 TEST_CASE("leaves and polygons of any size catch the wind with half of their area") {
-    // A rod whose end has the area of its base; without a mass the sheets have no other effect.
+    // The end of the rod catches wind with the area of its base; massless sheets only add area.
     Skeleton plant;
     Segment tapered = rod(2.0F, 0.05F, 3.0F, 1.0F);
     tapered.tip_radius = 0.02F;

@@ -62,7 +62,7 @@ TEST_CASE("an option sets whether every species senses its surroundings") {
     CHECK(scene.species[1].senses_surroundings);
     CHECK(scene.species[0].surroundings_span.file == kNoFile);
     overrides.senses_surroundings = false;
-    overrides.species["birch"].senses_surroundings = true; // one species has priority
+    overrides.species["birch"].senses_surroundings = true; // overrides the value for all species
     REQUIRE(apply(overrides, scene));
     CHECK_FALSE(scene.species[0].senses_surroundings);
     CHECK(scene.species[1].senses_surroundings);

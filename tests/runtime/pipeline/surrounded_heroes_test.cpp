@@ -18,9 +18,9 @@ using namespace lsys;
 
 namespace {
 
-/// A mast and four arms, 3 m high, that grow by 1 m a year, the arms while only their own mast
-/// shades them. The pyramid below a mast is as wide as it is high. So an arm, which would be 6 m
-/// long, stops at 3 m if a mast of the same age stands 6 m away in its direction.
+/// A mast of 3 m with four arms at its top. Mast and arms grow by 1 m a year, an arm only while no
+/// other mast shades it. The pyramid below a mast is as wide as it is high. So an arm, which would
+/// be 6 m long, stops at 3 m if a mast of the same age stands 6 m away in its direction.
 const char* const kStar =
     "#n = 6; #sense light shadow cell 1 levels 20 strength 0.1 ratio 1;"
     "#w : F(3) [ +(90) ?light(1,0,0,0,0) ] [ -(90) ?light(1,0,0,0,0) ] [ &(90) ?light(1,0,0,0,0) ]"

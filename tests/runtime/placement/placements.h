@@ -28,8 +28,8 @@ grey_map(std::uint32_t columns, std::uint32_t rows, const std::vector<std::uint1
     return map;
 }
 
-/// A map that becomes brighter from black to white along its columns, and from half to full
-/// brightness along its rows.
+/// A map whose grey grows with the column, from black on, and with the row; half of white in the
+/// last column of the last row.
 inline GreyMap sloped_map(std::uint32_t columns, std::uint32_t rows) {
     std::vector<std::uint16_t> values;
     for (std::uint32_t row = 0; row < rows; ++row) {

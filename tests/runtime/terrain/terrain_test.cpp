@@ -225,7 +225,7 @@ TEST_CASE("pictures of the ground are tiled from their origin") {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec3 at = mesh.positions[i];
         const glm::vec2 uv = mesh.texture_coordinates[i];
-        // Texture coordinates count tiles from the origin, up to a whole number.
+        // Texture coordinates are the distance from the origin in tiles plus a whole number.
         const float tiles_x = uv.x - (at.x - 3.0F) / 8.0F;
         const float tiles_z = uv.y - (at.z + 1.0F) / 5.0F;
         REQUIRE(tiles_x == Approx(std::round(tiles_x)).margin(1e-4));

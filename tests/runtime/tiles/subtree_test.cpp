@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Implicit tiling: the subtree files list the tiles of the explicit tilesets, with the same boxes
-// and errors. The content of a tile is that of the explicit tile below an additional node, whose
-// matrix is the place of the tile.
+// and errors. The content of a tile has one more node than that of the explicit tile: a root node,
+// whose matrix is the place of the tile.
 #include "runtime/tiles/impl/subtree.h"
 #include "tests/support/tile_forest.h"
 

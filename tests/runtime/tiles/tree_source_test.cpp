@@ -117,7 +117,7 @@ TEST_CASE("the tiles of a forest that senses its surroundings are those of the w
         stage.plant_height = 10.0;
     }
     kinds.species[1].stages.resize(1);
-    kinds.species[1].stages[0].plant_height = 5.0; // counts for smaller trees
+    kinds.species[1].stages[0].plant_height = 5.0; // takes quarters of small trees only
     const TreeSizer keeps_scales(std::vector<double>(2, 0.0), kinds);
     for (const PlacementMethod method : kMethods) {
         CAPTURE(static_cast<int>(method));

@@ -258,10 +258,10 @@ TEST_CASE("modules that cannot be drawn are counted, with the first place") {
     const Drawing endless = draw("F(3e38)F(3e38)F");
     CHECK(endless.status == Stop::Diagnosed);
     CHECK(endless.fault(TurtleFaultKind::NotFinite).position == 1);
-    const Drawing wide = draw("R(3e38)F(1e10)"); // the width is a part of the length
+    const Drawing wide = draw("R(3e38)F(1e10)"); // width 3e36 m
     CHECK(wide.fault(TurtleFaultKind::NotFinite).count == 0);
     Bytecode relative = BytecodeBuilder().axiom("R(3e38)F(1e10)").build();
-    relative.settings.traits.width_is_relative = true;
+    relative.settings.traits.width_is_relative = true; // width 2 * 3e36 * 1e10 m
     const Drawing too_wide = draw(std::move(relative), 0);
     CHECK(too_wide.status == Stop::Diagnosed);
     CHECK(too_wide.fault(TurtleFaultKind::NotFinite).position == 1);
