@@ -36,7 +36,7 @@ enum class QuickAction : std::uint8_t { None, NoEffect, Yaw, Pitch, Roll, Forwar
 struct TurtleInfo {
     enum Trait : std::uint16_t {
         Inverse = 1,           // turns opposite to yaw(), pitch() and roll() of the turtle's pose.h
-        ChangesAngle = 2,      // changes the angle of turns without a parameter
+        ChangesAngle = 2,      // changes the angle that turns without a parameter have
         SecondHeading = 4,     // moves along Fractint's second heading, which has its own turns
         DependsOnVertical = 8, // draws differently when the branch is turned
         DependsOnPlace = 16,   // draws differently when the branch is moved

@@ -164,8 +164,8 @@ public:
     /// the same instances as expand().
     template <typename Visit>
     void expand_until(const Tree& tree, Visit&& visit);
-    /// Calls visit(instance) for the instances of expand(), without computing transforms, which
-    /// takes a third of the time of expand().
+    /// Calls visit(instance) for the instances of expand(). Computes no transforms, so it takes only
+    /// a third of the time of expand().
     template <typename Visit>
     std::uint32_t expand_instances(const Tree& tree, Visit&& visit);
     /// The first instance of expand(): a whole plant.

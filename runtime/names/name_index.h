@@ -55,7 +55,7 @@ struct StatementOutline {
     TextPlace place;
     TextPlace name_place;
     std::string name;                 // empty for statements without a name
-    std::string detail;               // the text without the name, on one line, cut
+    std::string detail;               // the text without the name, on one line, truncated
     std::vector<std::string> formals; // formals of a production, function or module
     std::vector<ModuleHead> heads;    // heads of a production
     std::string environment_kind;     // word of the kind of a #sense

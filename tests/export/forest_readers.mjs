@@ -48,7 +48,7 @@ function pretendBrowser() {
 const isGround = name => /^ground/.test(name ?? '');
 
 /// Readers by their package in npm: functions of the path of node_modules and a file, which give
-/// { seconds, megabytes, instances, low, high }.
+/// { seconds, megabytes, instances, low, high }; low and high are corners of the bounding box.
 export const forestReaders = {
     async three(modules, file) {
         globalThis.self = globalThis;

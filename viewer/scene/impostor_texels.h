@@ -45,7 +45,7 @@ struct Tile {
 };
 
 /// Bounding box of the opaque texels of a tile, enlarged by `margin` texels within the tile. As min
-/// x, min y, max x, max y in sides of the tile; all 0 if no texel is opaque. `picture`: RGBA texels
+/// x, min y, max x, max y as fractions of the side; all 0 if no texel is opaque. `picture`: RGBA texels
 /// in rows of `width`.
 [[nodiscard]] glm::vec4 opaque_box(std::span<const std::uint8_t> picture,
                                    std::uint32_t width,

@@ -36,6 +36,7 @@ public:
     /// messages and a `status` other than "ok"; only a lack of memory for the answer itself throws.
     [[nodiscard]] Answer answer(std::string_view request, std::string_view files);
 
+    /// Host, limits and threads, which every call of the pipeline gets.
     [[nodiscard]] const Project& project() const { return project_; }
     [[nodiscard]] const std::map<std::string, std::string>& files() const { return files_; }
 

@@ -258,7 +258,7 @@ void GrowthWalk::apply_rule(const Rule& rule) {
     const auto found = by_symbol_.find(static_cast<std::uint32_t>(rule.symbol));
     if (found != by_symbol_.end()) {
         const std::vector<ClassId> ids =
-            found->second; // a copy: a pass does not rewrite the modules that it writes
+            found->second; // a copy, because rewrite() adds modules that this pass does not rewrite
         rewrite(ids);
     }
 }

@@ -55,7 +55,7 @@ private:
     ConstantTable& constants_;
     ExpressionResolver& expressions_;
     std::unordered_map<std::string, float> replacements_; // values of -D, by name
-    std::optional<SourceSpan> first_generations_;
+    std::optional<SourceSpan> first_generations_;         // place of the first #n
     std::uint32_t draw_position_ = 0;
 };
 

@@ -141,7 +141,7 @@ private:
                                              ExpressionPlace place);
     /// Returns false after reporting that ranges and distributions are not allowed in `place`.
     [[nodiscard]] bool check_random_allowed(const Expression& expression, ExpressionPlace place);
-    /// A value with the next draw number of the statement.
+    /// The value of a random draw; gives it the next draw number of the statement.
     [[nodiscard]] ValueId draw_value(Opcode opcode,
                                      ValueId first,
                                      ValueId second,

@@ -74,7 +74,7 @@ public:
     [[nodiscard]] bool wants_modules() const { return wants_modules_; }
     /// Opens a parenthesis.
     void open() { ++depth_; }
-    /// Closes a parenthesis; returns true if more modules follow.
+    /// Closes a parenthesis; returns true if it was the outermost one in a list of modules.
     bool close();
     void begin_condition() { in_condition_ = true; } // condition or probability of a rule
     /// Ends the condition or probability at a `=` outside of parentheses; returns true if modules

@@ -22,7 +22,7 @@ struct LparserFile {
     std::optional<SourceSpan> thickness; // percent of the length of a segment
     std::optional<SourceSpan> axiom;
     std::vector<LparserRule> rules;
-    std::optional<SourceSpan> trope; // parameter of `t` without one
+    std::optional<SourceSpan> trope; // default parameter of `t`
     std::vector<SourceSpan> colours; // index and three parts
 };
 

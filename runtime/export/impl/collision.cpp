@@ -39,8 +39,8 @@ float mean_radius(const Segment& segment) {
     return 0.5F * (segment.base_radius + segment.tip_radius);
 }
 
-/// For each segment the next segment of its bough: the thickest linked child; among equals the one
-/// in the fewest brackets, then the longest, then the first.
+/// For each segment the next segment of its bough: the thickest child that begins at its tip; among
+/// equals the one in the fewest brackets, then the longest, then the first.
 std::vector<std::uint32_t> find_next(const Skeleton& skeleton) {
     const auto& segments = skeleton.segments;
     std::vector<std::uint32_t> next(segments.size(), kNoSegment);

@@ -251,11 +251,12 @@ TEST_CASE("cells may be tiny and huge") {
     CHECK(huge.numbers[0] == Approx(0.6F));
 }
 
-TEST_CASE("a shadow whose weight is too small for squares has a direction") {
+TEST_CASE("a shadow so weak that the square of its weight is 0 still has a direction") {
     BytecodeEnvironment declared = unit_cells();
     declared.levels = 250;
     declared.ratio = 10.0F;
-    // The neighbours below the lower place are in its own shadow; those beside it are not.
+    // The shadow of the lower place covers the adjacent voxels below it, but not those beside it, so
+    // there is more light upwards.
     std::vector<SensePlace> places{place_at(0, 0, 0), place_at(100, 201, 0)};
     declared.strength = 1e-30F;
     const Numbers numbers = ask_shadow(declared, places, {}).numbers;

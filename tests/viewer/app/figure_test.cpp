@@ -124,7 +124,7 @@ TEST_CASE("surfaces fade while lines are shown, and the lines do not") {
             CHECK(faded[at + 1] == 0);
         }
     }
-    CHECK(brighter > 15); // the person, against a bright sky
+    CHECK(brighter > 15); // pixels of the dark person, over whom the sky is drawn with alpha
     CHECK(red > 30);
     CHECK(renderer->errors().empty());
 }

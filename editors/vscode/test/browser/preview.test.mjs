@@ -18,7 +18,7 @@ const uri = 'file:///p/tree.lsys';
 const tree = `#n = 5;
 #set angle 28;
 #set width 0.3;
-#param ratio 0.75 {0.5, 0.9}; // length of a branch by that of its parent
+#param ratio 0.75 {0.5, 0.9}; // length of a branch relative to its parent
 #param lean  20   {0, 60};    // degrees
 #object L LEAF;
 #w : '(9) F(2) A(2);
@@ -151,7 +151,7 @@ test('the plant is drawn, follows the text and the sliders, and is clicked', asy
   await page.getByText('Fit').click();
   assert.equal(await isMoved(), false);
 
-  // The leaf under the cursor.
+  // The text cursor is on the leaf.
   session.moveCursor(uri, { line: 7, character: tree.split('\n')[7].indexOf('L(0.6)') });
   await page.waitForFunction(() => globalThis.plantView.highlightedTriangles() > 0);
   await picture('leaves-highlighted');
