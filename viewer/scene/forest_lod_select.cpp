@@ -183,8 +183,8 @@ float ForestLod::cluster_size(const ForestCell& cell, const glm::vec3& eye) cons
     // Min height of trees, in sides of the cell. The picture is as wide as the cell, so lower trees
     // would cover only few of its texels.
     constexpr float kMinHeight = 1.0F / 6.0F;
-    // Seen from above, the length is about the side of the cell: no cell hides the next cell, so
-    // the borders of large pictures would be visible as a grid.
+    // Seen from above, no cell hides the borders of the next one, which would show as a grid. So the
+    // result grows to 1.9 sides, and cells are pictures only where they are small on the screen.
     constexpr float kSideView = 0.25F; // sine of the max elevation of a view from the side
     constexpr float kFootprint = 2.5F;
     const float footprint = kFootprint * (sine - kSideView);

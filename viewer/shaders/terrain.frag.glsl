@@ -104,7 +104,7 @@ void main() {
     vec3 light = shade(albedo, normal, world_position, lit, 0.0);
 #endif
 #if QUALITY > 0
-    // The eye below crowns adapts to the shade, and less to sunlit ground far outside the wood.
+    // Pictures from below crowns are exposed for the shade; this darkens sunlit distance again.
     light *= mix(1.0, frame.near_maps.w, smoothstep(50.0, 150.0, fog.z));
 #endif
 #ifdef CANOPY

@@ -58,7 +58,7 @@ private:
     Bytecode& bytecode_;
     std::vector<std::uint32_t> stack_need_; // per ValueId: stack depth that its code needs
     std::uint32_t current_site_ = kNone;    // source position of the next instruction
-    bool overflowed_ = false;
+    bool overflowed_ = false;               // see overflowed()
 
     /// A step of emitting the code of a value. The last step of frames_, a stack, is emitted first.
     enum class Step : std::uint8_t { Operands, Operation, Store, If, Else, EndIf };

@@ -38,7 +38,7 @@ struct BoxJoint {
 /// The shape of a ring in the side of a joint.
 struct BoxOpening {
     float reach = 0.0F; // distance from the base of the segment to the farthest corner
-    float size = 1.0F;  // of the cross-section of the segment; below 1 without room for all
+    float size = 1.0F;  // as a fraction of the cross-section of the segment, which may not fit
     bool moved = false; // its middle is not on the axis of the segment
 };
 /// Max size of an opening, as a fraction of the side of the joint or of the tile that contains it.

@@ -83,7 +83,7 @@ class Program:
 class Module:
     """The Python module lsys."""
 
-    #: Options that compile() takes as text, under the same name.
+    #: Options of lsc that lsys.compile() takes as text arguments of the same name.
     COMPILE = ("dialect", "system")
 
     def attempt(self, work, seconds):
