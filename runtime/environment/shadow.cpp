@@ -40,7 +40,7 @@ public:
     }
 
 private:
-    /// Max bytes of the lists of targets and sources of one piece of work, for usual plants.
+    /// Estimated bytes of the lists of a ShadowRun, per thread, for plants that are not very dense.
     static constexpr std::uint64_t kPieceBytes = std::uint64_t{1} << 20;
 
     [[nodiscard]] std::optional<EnvironmentFailure>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Has Blender import files of write_forest by the add-on. Usage: import_forest_in_blender.py SCRIPT FOLDER
+"""Imports the files that write_forest wrote into Blender, with the add-on. Usage: import_forest_in_blender.py SCRIPT FOLDER
 
 Runs itself in Blender; exit status 77 without Blender.
 """

@@ -204,9 +204,9 @@ private:
                                         constants_, random_);
             return;
         case StatementKind::Module: {
-            const Species& species = declarable(letters);
-            statement.patterns = {{species.name, {}}};
-            for (std::size_t i = 0; i < species.count; ++i) {
+            const ModuleKind& module = declarable(letters);
+            statement.patterns = {{module.name, {}}};
+            for (std::size_t i = 0; i < module.count; ++i) {
                 statement.patterns[0].formals.push_back("p" + to_text(i));
             }
             return;
@@ -304,30 +304,30 @@ private:
     // Adds more modules with constant arguments than there are codes of one byte.
     void add_many_constants(std::vector<ModuleUse>& modules, bool letters) {
         for (int i = 0; i < 300; ++i) {
-            const Species& species = fitting(letters);
-            ModuleUse use{species.name, {}};
-            for (std::size_t k = 0; k < species.count; ++k) {
+            const ModuleKind& module = fitting(letters);
+            ModuleUse use{module.name, {}};
+            for (std::size_t k = 0; k < module.count; ++k) {
                 use.arguments.push_back(number(static_cast<float>(i)));
             }
             modules.push_back(use);
         }
     }
 
-    const Species& fitting(bool letters) {
+    const ModuleKind& fitting(bool letters) {
         while (true) {
-            const Species& species = random_.pick(plan_.species);
-            if (fits(species.name, letters)) {
-                return species;
+            const ModuleKind& module = random_.pick(plan_.kinds);
+            if (fits(module.name, letters)) {
+                return module;
             }
         }
     }
 
     // A module that may have a declaration.
-    const Species& declarable(bool letters) {
+    const ModuleKind& declarable(bool letters) {
         while (true) {
-            const Species& species = fitting(letters);
-            if (!is_sense_name(species.name)) {
-                return species;
+            const ModuleKind& module = fitting(letters);
+            if (!is_sense_name(module.name)) {
+                return module;
             }
         }
     }
@@ -523,8 +523,8 @@ private:
     // possible.
     bool add_considered() {
         std::set<std::string> names;
-        for (const Species& species : plan_.species) {
-            names.insert(species.name);
+        for (const ModuleKind& module : plan_.kinds) {
+            names.insert(module.name);
         }
         for (const std::string& name : plan_.ignored) {
             names.erase(name);

@@ -12,10 +12,9 @@ namespace {
 void add_species(Plan& plan, const std::string& name, std::size_t max_parameters, Random& random) {
     const auto count =
         static_cast<std::size_t>(random.between(0, static_cast<int>(max_parameters)));
-    plan.species.push_back(
-        {name, random.percent(60) ? count : std::min(count, max_parameters / 2)});
+    plan.kinds.push_back({name, random.percent(60) ? count : std::min(count, max_parameters / 2)});
     if (max_parameters > 0 && random.percent(25)) { // the same name, another number of parameters
-        plan.species.push_back({name, (count + 1) % (max_parameters + 1)});
+        plan.kinds.push_back({name, (count + 1) % (max_parameters + 1)});
     }
 }
 
@@ -71,10 +70,10 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
             add_species(plan, words[static_cast<std::size_t>(i)], max_parameters, random);
         }
     }
-    random.shuffle(plan.species);
-    const std::size_t active = 1 + random.below(std::min<std::size_t>(plan.species.size(), 4));
-    plan.active.assign(plan.species.begin(),
-                       plan.species.begin() + static_cast<std::ptrdiff_t>(active));
+    random.shuffle(plan.kinds);
+    const std::size_t active = 1 + random.below(std::min<std::size_t>(plan.kinds.size(), 4));
+    plan.active.assign(plan.kinds.begin(),
+                       plan.kinds.begin() + static_cast<std::ptrdiff_t>(active));
     const int symbol_count = random.between(0, 3);
     for (int i = 0; i < symbol_count; ++i) {
         const std::string& symbol = symbols[static_cast<std::size_t>(i)];
@@ -82,26 +81,26 @@ Plan make_plan(bool letters_files, bool words_files, Random& random) {
         add_species(plan, symbol, bare ? 0 : max_parameters, random);
     }
     if (random.percent(8)) {
-        plan.species.push_back({"'", 3}); // a colour
+        plan.kinds.push_back({"'", 3}); // a colour
     }
     if (random.percent(25)) {
         add_species(plan, quoted[0], max_parameters, random);
         add_species(plan, quoted[1], max_parameters, random);
     }
     if (random.percent(25)) { // symbols may be rewritten too
-        plan.active.push_back(plan.species.back());
+        plan.active.push_back(plan.kinds.back());
     }
     if (plan.context_percent > 0 && random.percent(50)) {
         for (int count = random.between(1, 2); count > 0; --count) {
-            const std::size_t back = random.below(std::min<std::size_t>(4, plan.species.size()));
-            plan.ignored.push_back(plan.species[plan.species.size() - 1 - back].name);
+            const std::size_t back = random.below(std::min<std::size_t>(4, plan.kinds.size()));
+            plan.ignored.push_back(plan.kinds[plan.kinds.size() - 1 - back].name);
         }
     }
     while (letters_files &&
            std::none_of(plan.active.begin(), plan.active.end(),
-                        [](const Species& species) { return fits(species.name, true); })) {
+                        [](const ModuleKind& kind) { return fits(kind.name, true); })) {
         plan.active.push_back({random.pick(letters), random.percent(50) ? max_parameters : 0});
-        plan.species.push_back(plan.active.back());
+        plan.kinds.push_back(plan.active.back());
     }
     return plan;
 }

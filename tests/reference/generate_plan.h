@@ -13,7 +13,7 @@
 namespace lsys::reference {
 
 // A kind of module: name and number of parameters.
-struct Species {
+struct ModuleKind {
     std::string name;
     std::size_t count = 0; // number of parameters
 };
@@ -31,12 +31,12 @@ struct Plan {
     std::size_t stochastic_percent = 0; // percentage of bundles with weights
     std::size_t range_percent = 0;      // percentage of arguments of successors that have a range
     std::size_t local_percent = 0;      // percentage of productions with local values
-    std::vector<Species> species;       // all modules of the grammar
-    std::vector<Species> active;        // modules that productions rewrite
+    std::vector<ModuleKind> kinds;      // all modules of the grammar
+    std::vector<ModuleKind> active;     // modules that productions rewrite
     std::vector<std::string> ignored;
     bool senses = false;                   // the grammar is one of a plant that senses
     std::vector<std::string> environments; // names without `?`
-    std::vector<Species> senses_of;        // all sense modules; `species` has them too
+    std::vector<ModuleKind> senses_of;     // all sense modules; `kinds` has them too
 };
 
 // Whether a file can contain modules of that name: with `names letters`, identifiers have one
@@ -44,7 +44,7 @@ struct Plan {
 bool fits(const std::string& name, bool letters);
 
 // `letters_files`, `words_files`: whether the grammar has files with and without `#set names
-// letters`. Every file can contain at least one active species.
+// letters`. Every file can contain at least one active kind.
 Plan make_plan(bool letters_files, bool words_files, Random& random);
 
 } // namespace lsys::reference

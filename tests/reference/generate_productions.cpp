@@ -20,16 +20,16 @@ bool can_be_rewritten(const std::string& name) {
     return std::string("[]{}").find(name) == std::string::npos;
 }
 
-// Index of `length` adjacent modules at a random place in `skeleton`; nullopt if there is no such
+// Index of `length` adjacent modules at a random place in `list`; nullopt if there is no such
 // place.
-std::optional<std::size_t> place_in(const Skeleton& skeleton, std::size_t length, Random& random) {
+std::optional<std::size_t> place_in(const KindList& list, std::size_t length, Random& random) {
     std::vector<std::size_t> places;
-    for (std::size_t i = 0; i + length <= skeleton.size(); ++i) {
-        const auto first = skeleton.begin() + static_cast<std::ptrdiff_t>(i);
+    for (std::size_t i = 0; i + length <= list.size(); ++i) {
+        const auto first = list.begin() + static_cast<std::ptrdiff_t>(i);
         if (std::all_of(first, first + static_cast<std::ptrdiff_t>(length),
-                        [](const Species& one) { return can_be_rewritten(one.name); })) {
+                        [](const ModuleKind& one) { return can_be_rewritten(one.name); })) {
             places.push_back(i);
-            if (i + length < skeleton.size() && skeleton[i + length].name == "[") {
+            if (i + length < list.size() && list[i + length].name == "[") {
                 // Added three more times, because contexts with branches fit here.
                 places.insert(places.end(), 3, i);
             }
@@ -41,31 +41,31 @@ std::optional<std::size_t> place_in(const Skeleton& skeleton, std::size_t length
     return random.pick(places);
 }
 
-ModulePattern pattern_of(const Species& species) {
-    return {species.name, std::vector<std::string>(species.count)};
+ModulePattern pattern_of(const ModuleKind& kind) {
+    return {kind.name, std::vector<std::string>(kind.count)};
 }
 
 // The last modules on the path that leads to `place`, as a left context.
-Pattern cut_left(const Skeleton& skeleton,
+Pattern cut_left(const KindList& list,
                  std::size_t place,
                  int length,
                  const std::vector<std::string>& ignored) {
     Pattern pattern;
     int finished = 0; // depth within branches that are not on the path
     for (std::size_t i = place; i-- > 0 && static_cast<int>(pattern.size()) < length;) {
-        if (skeleton[i].name == "]") {
+        if (list[i].name == "]") {
             ++finished;
-        } else if (skeleton[i].name == "[") {
+        } else if (list[i].name == "[") {
             finished -= finished > 0 ? 1 : 0;
-        } else if (finished == 0 && !contains(ignored, skeleton[i].name)) {
-            pattern.insert(pattern.begin(), pattern_of(skeleton[i]));
+        } else if (finished == 0 && !contains(ignored, list[i].name)) {
+            pattern.insert(pattern.begin(), pattern_of(list[i]));
         }
     }
     return pattern;
 }
 
 // Some modules of the axis from `place` on, with some of its branches, as a right context.
-Pattern cut_right(const Skeleton& skeleton,
+Pattern cut_right(const KindList& list,
                   std::size_t place,
                   int length,
                   const std::vector<std::string>& ignored,
@@ -74,26 +74,26 @@ Pattern cut_right(const Skeleton& skeleton,
     /// Whether a branch was skipped: a pattern with a branch directly after it would not match.
     bool skipped = false;
     std::size_t i = place;
-    for (int taken = 0; taken < length && i < skeleton.size() && skeleton[i].name != "]"; ++i) {
-        if (skeleton[i].name == "[") {
+    for (int taken = 0; taken < length && i < list.size() && list[i].name != "]"; ++i) {
+        if (list[i].name == "[") {
             if (!skipped && random.percent(70)) {
                 const int inner_length = random.between(0, 2);
                 pattern.push_back({"[", {}});
-                const Pattern inner = cut_right(skeleton, i + 1, inner_length, ignored, random);
+                const Pattern inner = cut_right(list, i + 1, inner_length, ignored, random);
                 pattern.insert(pattern.end(), inner.begin(), inner.end());
                 pattern.push_back({"]", {}});
                 ++taken;
             } else {
                 skipped = true;
             }
-            for (int depth = 0; i < skeleton.size(); ++i) {
-                depth += skeleton[i].name == "[" ? 1 : skeleton[i].name == "]" ? -1 : 0;
+            for (int depth = 0; i < list.size(); ++i) {
+                depth += list[i].name == "[" ? 1 : list[i].name == "]" ? -1 : 0;
                 if (depth == 0) {
                     break;
                 }
             }
-        } else if (!contains(ignored, skeleton[i].name)) {
-            pattern.push_back(pattern_of(skeleton[i]));
+        } else if (!contains(ignored, list[i].name)) {
+            pattern.push_back(pattern_of(list[i]));
             skipped = false;
             ++taken;
         }
@@ -103,26 +103,26 @@ Pattern cut_right(const Skeleton& skeleton,
 
 } // namespace
 
-const Species& ProductionMaker::any_species(bool letters) {
+const ModuleKind& ProductionMaker::any_kind(bool letters) {
     while (true) {
         const bool senses = plan_.senses && random_.percent(20);
-        const Species& species = random_.pick(senses                ? plan_.senses_of
+        const ModuleKind& kind = random_.pick(senses                ? plan_.senses_of
                                               : random_.percent(75) ? plan_.active
-                                                                    : plan_.species);
-        if (fits(species.name, letters)) {
-            return species;
+                                                                    : plan_.kinds);
+        if (fits(kind.name, letters)) {
+            return kind;
         }
     }
 }
 
-const Species& ProductionMaker::active_species(bool letters) {
+const ModuleKind& ProductionMaker::active_kind(bool letters) {
     while (true) {
-        const std::size_t turn = next_active_species_++ % plan_.active.size();
-        const Species& species = random_.percent(70)   ? plan_.active[turn]
+        const std::size_t turn = next_active_kind_++ % plan_.active.size();
+        const ModuleKind& kind = random_.percent(70)   ? plan_.active[turn]
                                  : random_.percent(75) ? random_.pick(plan_.active)
-                                                       : random_.pick(plan_.species);
-        if (fits(species.name, letters)) {
-            return species;
+                                                       : random_.pick(plan_.kinds);
+        if (fits(kind.name, letters)) {
+            return kind;
         }
     }
 }
@@ -142,8 +142,8 @@ Pattern ProductionMaker::context(int length, bool brackets, int depth, bool lett
         } else if (brackets && plan_.polygons && random_.percent(5)) {
             pattern.push_back({random_.percent(50) ? "{" : "}", {}});
         } else {
-            const Species& species = any_species(letters);
-            pattern.push_back({species.name, std::vector<std::string>(species.count)});
+            const ModuleKind& kind = any_kind(letters);
+            pattern.push_back({kind.name, std::vector<std::string>(kind.count)});
         }
     }
     return pattern;
@@ -186,11 +186,11 @@ std::string ProductionMaker::name_local(const std::vector<std::string>& used) {
     return text;
 }
 
-Skeleton ProductionMaker::skeleton(int length, bool letters, bool polygon) {
-    Skeleton list;
+KindList ProductionMaker::random_list(int length, bool letters, bool polygon) {
+    KindList list;
     const auto nest = [&](const char* open, const char* close, bool in_polygon) {
         list.push_back({open, 0});
-        const Skeleton inner = skeleton(random_.between(0, 3), letters, in_polygon);
+        const KindList inner = random_list(random_.between(0, 3), letters, in_polygon);
         list.insert(list.end(), inner.begin(), inner.end());
         list.push_back({close, 0});
     };
@@ -200,29 +200,29 @@ Skeleton ProductionMaker::skeleton(int length, bool letters, bool polygon) {
         } else if (plan_.polygons && !polygon && random_.percent(12)) {
             nest("{", "}", true);
         } else {
-            list.push_back(any_species(letters));
+            list.push_back(any_kind(letters));
         }
     }
     return list;
 }
 
-const Skeleton& ProductionMaker::common_skeleton(bool letters) {
-    std::vector<Skeleton>& all = letters ? skeletons_of_letters_ : skeletons_;
+const KindList& ProductionMaker::common_list(bool letters) {
+    std::vector<KindList>& all = letters ? lists_of_letters_ : lists_;
     while (all.size() < 3) {
-        all.push_back(skeleton(random_.between(3, 7), letters, false));
+        all.push_back(random_list(random_.between(3, 7), letters, false));
     }
     return random_.pick(all);
 }
 
-Expr ProductionMaker::argument(const Species& species, const Scope& scope) {
+Expr ProductionMaker::argument(const ModuleKind& kind, const Scope& scope) {
     if (!plan_.senses) {
         return expressions_.argument(scope);
     }
-    if (std::string("+-&^/\\").find(species.name) != std::string::npos) {
+    if (std::string("+-&^/\\").find(kind.name) != std::string::npos) {
         return turn_argument(scope.formals, random_);
     }
-    const bool is_answer = is_sense_name(species.name);
-    const bool is_any = random_.percent(species.name == "F" || species.name == "f" ? 3 : 30);
+    const bool is_answer = is_sense_name(kind.name);
+    const bool is_any = random_.percent(kind.name == "F" || kind.name == "f" ? 3 : 30);
     return is_any                             ? expressions_.argument(scope)
            : is_answer && random_.percent(60) ? number(0)
                                               : length_argument(scope.formals, random_);
@@ -230,12 +230,12 @@ Expr ProductionMaker::argument(const Species& species, const Scope& scope) {
 
 std::vector<ModuleUse> ProductionMaker::modules(int length, const Scope& scope, bool letters) {
     const bool common = length > 2 && random_.percent(60);
-    const Skeleton names = common ? common_skeleton(letters) : skeleton(length, letters, false);
+    const KindList names = common ? common_list(letters) : random_list(length, letters, false);
     std::vector<ModuleUse> list;
-    for (const Species& species : names) {
-        ModuleUse use{species.name, {}};
-        for (std::size_t k = 0; k < species.count; ++k) {
-            use.arguments.push_back(argument(species, scope));
+    for (const ModuleKind& kind : names) {
+        ModuleUse use{kind.name, {}};
+        for (std::size_t k = 0; k < kind.count; ++k) {
+            use.arguments.push_back(argument(kind, scope));
         }
         list.push_back(use);
     }
@@ -326,8 +326,8 @@ std::vector<float> ProductionMaker::shares(int count) {
     return values;
 }
 
-// Makes predecessor and contexts: cuts them from a stored skeleton, or makes them of random
-// species.
+// Makes predecessor and contexts: cuts them from a stored list, or makes them of modules of random
+// kinds.
 Production ProductionMaker::shape(bool letters) {
     Production shape;
     const bool allows_several_modules = plan_.rewriting != "parallel";
@@ -336,23 +336,22 @@ Production ProductionMaker::shape(bool letters) {
     const bool in_context = random_.percent(plan_.context_percent);
     const std::size_t sides = random_.below(10);
     const int size = random_.percent(60) ? 1 : random_.between(2, 3);
-    const Skeleton& skeleton = common_skeleton(letters);
-    const std::optional<std::size_t> place = place_in(skeleton, length, random_);
-    const bool from_skeleton = place && random_.percent(in_context || length > 1 ? 85 : 25);
+    const KindList& list = common_list(letters);
+    const std::optional<std::size_t> place = place_in(list, length, random_);
+    const bool from_list = place && random_.percent(in_context || length > 1 ? 85 : 25);
     for (std::size_t i = 0; i < length; ++i) {
-        const Species& species = from_skeleton ? skeleton[*place + i] : active_species(letters);
-        shape.predecessor.push_back({species.name, std::vector<std::string>(species.count)});
+        const ModuleKind& kind = from_list ? list[*place + i] : active_kind(letters);
+        shape.predecessor.push_back({kind.name, std::vector<std::string>(kind.count)});
     }
     if (in_context && sides < 6) {
-        shape.left = from_skeleton ? cut_left(skeleton, *place, size, plan_.ignored) : Pattern{};
+        shape.left = from_list ? cut_left(list, *place, size, plan_.ignored) : Pattern{};
         if (shape.left->empty()) {
             shape.left = context(size, false, 0, letters);
         }
     }
     if (in_context && sides > 3) {
-        const std::size_t end = from_skeleton ? *place + length : 0;
-        shape.right =
-            from_skeleton ? cut_right(skeleton, end, size, plan_.ignored, random_) : Pattern{};
+        const std::size_t end = from_list ? *place + length : 0;
+        shape.right = from_list ? cut_right(list, end, size, plan_.ignored, random_) : Pattern{};
         if (shape.right->empty()) {
             shape.right = context(size, plan_.brackets, 0, letters);
         }

@@ -16,7 +16,7 @@
 namespace lsys::reference {
 
 // The names of a successor or axiom without arguments; its brackets are included.
-using Skeleton = std::vector<Species>;
+using KindList = std::vector<ModuleKind>;
 
 class ProductionMaker {
 public:
@@ -37,12 +37,12 @@ public:
     Expr probability(float value, const std::vector<std::string>& formals);
 
 private:
-    const Species& any_species(bool letters);
+    const ModuleKind& any_kind(bool letters);
     // An argument of a module. In a plant that senses, most lengths and turns are those of a plant.
-    Expr argument(const Species& species, const Scope& scope);
-    const Species& active_species(bool letters);
-    Skeleton skeleton(int length, bool letters, bool polygon);
-    const Skeleton& common_skeleton(bool letters);
+    Expr argument(const ModuleKind& kind, const Scope& scope);
+    const ModuleKind& active_kind(bool letters);
+    KindList random_list(int length, bool letters, bool polygon);
+    const KindList& common_list(bool letters);
     Production shape(bool letters); // predecessor and contexts
     // Makes productions with the predecessor and the contexts of `shape`.
     std::vector<Production> bundle_of(const Production& shape, bool letters);
@@ -58,12 +58,12 @@ private:
     const Plan& plan_;
     ExpressionMaker expressions_;
     const Constants& constants_;
-    // Index of the species that the next production rewrites; each active species gets its turn.
-    std::size_t next_active_species_ = 0;
+    // Index of the kind that the next production rewrites; each active kind gets its turn.
+    std::size_t next_active_kind_ = 0;
     // Skeletons from which successors are often made, and from which contexts are cut, so that
     // contexts match words.
-    std::vector<Skeleton> skeletons_;
-    std::vector<Skeleton> skeletons_of_letters_;
+    std::vector<KindList> lists_;
+    std::vector<KindList> lists_of_letters_;
 };
 
 } // namespace lsys::reference

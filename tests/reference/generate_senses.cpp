@@ -118,12 +118,12 @@ void add_turns(Plan& plan, Random& random) {
     std::vector<std::string> turns = {"+", "-", "&", "^", "/", "\\"};
     random.shuffle(turns);
     for (int count = random.between(2, 4); count > 0; --count) {
-        plan.species.push_back({turns.back(), random.percent(80) ? 1U : 0U});
+        plan.kinds.push_back({turns.back(), random.percent(80) ? 1U : 0U});
         turns.pop_back();
     }
     for (const char* other : {"|", "$", "\""}) {
         if (random.percent(15)) {
-            plan.species.push_back({other, 0});
+            plan.kinds.push_back({other, 0});
         }
     }
 }
@@ -137,9 +137,9 @@ void add_senses(Plan& plan, bool letters_files, Random& random) {
     plan.polygons = random.percent(40);
     plan.open_polygons = plan.polygons && random.percent(10);
     add_turns(plan, random);
-    const std::vector<Species> moves = {{"F", random.percent(75) ? 1U : 0U},
-                                        {"f", random.percent(50) ? 1U : 0U}};
-    plan.species.insert(plan.species.end(), moves.begin(), moves.end());
+    const std::vector<ModuleKind> moves = {{"F", random.percent(75) ? 1U : 0U},
+                                           {"f", random.percent(50) ? 1U : 0U}};
+    plan.kinds.insert(plan.kinds.end(), moves.begin(), moves.end());
     plan.active.insert(plan.active.end(), moves.begin(), moves.end());
 
     std::vector<std::string> names = {"A", "B", "c", "d", "E", "G", "i", "Q", "x", "Z"};
@@ -164,7 +164,7 @@ void add_senses(Plan& plan, bool letters_files, Random& random) {
                 {turtle, static_cast<std::size_t>(random.percent(70) ? 3 : random.between(0, 4))});
         }
     }
-    plan.species.insert(plan.species.end(), plan.senses_of.begin(), plan.senses_of.end());
+    plan.kinds.insert(plan.kinds.end(), plan.senses_of.begin(), plan.senses_of.end());
     if (random.percent(70)) { // answers change the plant
         plan.active.push_back(random.pick(plan.senses_of));
     }

@@ -80,7 +80,7 @@ public:
     void apply(const SourceFix& fix, PlantView& view) const;
     void apply_all(PlantView& view) const;
     /// The fix that apply_here() applies: of the messages of the selected line, the first certain
-    /// fix, else the first repair; null if there is none.
+    /// fix, else the first other fix; null if there is none.
     [[nodiscard]] const SourceFix* fix_here() const;
     /// Applies fix_here(), or says in a note of `view` why there is nothing to apply. `plant`: the
     /// view, if it shows a plant, else null.

@@ -128,7 +128,7 @@ private:
     LargeVector<std::uint8_t> painted_alive_; // by painted tree
     std::uint64_t alive_count_ = 0;
     float max_scale_ = 0.0F; // of all trees, including removed ones
-    // Erased trees of the painting whose numbers no tree of `placed` has.
+    // Numbers in `erased` of the painting that no placed tree has; kept, to be saved again.
     std::vector<std::uint32_t> erased_before_;
     std::uint64_t draws_ = 0; // count of random numbers used
 

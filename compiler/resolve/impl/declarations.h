@@ -30,7 +30,7 @@ private:
     [[nodiscard]] bool check_file_name(const ObjectNode& node);
     /// The object that the statement binds; nothing after a report.
     [[nodiscard]] std::optional<ObjectBinding> object_of(const ObjectNode& node);
-    /// Reads the name of a contour behind the object; returns false after reporting a mistake.
+    /// Reads the name of a contour after the object; returns false after reporting a mistake.
     [[nodiscard]] bool set_contour(const ObjectNode& node, ObjectBinding& binding);
     /// Makes modules of this name draw the object; reports a second object for the name.
     void bind(const ModuleView& module, ObjectBinding binding);

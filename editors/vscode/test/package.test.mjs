@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that package.json names, and that its snippets are grammars.
+// Checks that the files named by package.json exist, and that its snippets are grammars.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';

@@ -26,7 +26,7 @@ constexpr std::array<Function, 22> kFunctions{{
     {"mod", "mod"},    {"int", "int"},
 }};
 
-/// Variables of the turtle, unknown to rules.
+/// Variables of Houdini's turtle, which draws after all rules have been applied: no rule reads them.
 constexpr std::string_view kTurtleVariables = "xyzALTUVW";
 
 std::string_view operator_of(std::string_view text) {

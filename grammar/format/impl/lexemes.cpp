@@ -145,7 +145,7 @@ void LexemeReader::enter_next_part() {
     if (part_ == 0) {
         return;
     }
-    // Local values stand between colons of their own, and belong to part 3.
+    // Local values stand between colons of their own, but count as part 3.
     const bool has_locals = part_ == 3 && !has_locals_ && begins_local_values(text_, at_);
     has_locals_ = has_locals_ || has_locals;
     part_ += has_locals ? 0U : 1U;

@@ -16,7 +16,7 @@ namespace lsys {
 
 inline constexpr double kLowFactor = 2.0; // min ratio of the triangles of a level to the next level
 inline constexpr double kMaxFactor = 3.0; // max ratio
-// Max ratio for boxes: a level with one step of subdivision less has a quarter of the triangles.
+// Max ratio with MeshMethod::Boxes: one step of subdivision less leaves a quarter of the triangles.
 inline constexpr double kMaxFactorOfBoxes = 4.5;
 
 [[nodiscard]] std::uint64_t triangles_of(const Mesh& mesh);

@@ -282,7 +282,7 @@ async function grow(): Promise<void> {
   try {
     await engine.call('beginGrowth', editor.text, options());
     const seconds = Math.min(Math.max(last * 0.6, 3), 12);
-    // Slow machines take longer, so that the growth stays smooth.
+    // Max part of the growth per frame: on slow machines the growth takes longer, but does not jump.
     const kLongestStep = 1 / 30;
     let before = performance.now();
     for (let part = 0; playing && part < 1; ) {
