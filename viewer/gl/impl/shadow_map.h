@@ -33,7 +33,7 @@ private:
     Device* device_;
     std::uint32_t texels_; // per side
     TextureObject depth_;
-    TextureObject depths_; // made when first needed
+    TextureObject depths_; // view of depth_ without comparison, made when first needed
     Framebuffer framebuffer_;
     glm::mat4 matrix_{0.0F}; // of the drawn map
     bool stale_ = true;      // must be redrawn in any case
