@@ -518,7 +518,7 @@ private:
     TraceInputs inputs_;
     Trace trace_;
     std::string sense_state_;              // state of the environments at the traced generation
-    std::vector<TracedModule> next_;       // modules at StepTracer::places()
+    std::vector<TracedModule> next_;       // what the traced modules become, in their order
     std::vector<StoredWord> stored_words_; // by ascending age
     std::uint32_t stride_ = 1;             // ages of stored words are multiples of this number
 };

@@ -11,7 +11,7 @@ layout(std140, binding = 1) uniform Culling {
     vec4 casters_low;   // box of the casters of shadows, m
     vec4 casters_high;
     uvec4 trees;        // counts: x: cells; y: trees in cells; z: added trees; w: 1 to list casters
-    uvec4 limits;       // max of: xy: triangles (64 bits); z: branches; w: candidates
+    uvec4 limits;       // max of: xy: triangles (64 bits); z: branches; w: trees that may be drawn as branches
     uvec4 key;          // xy: key of the forest; z: max impostors; w: number of keys of branches
     vec4 ground;        // x: 1 if the ground occludes, else 0; y: height of the eye above it, m
     uvec4 heights;      // x: number of levels of the ground; y: number of distances of the horizon

@@ -60,7 +60,7 @@ std::string material_text(std::string_view record) {
 constexpr std::size_t kColours = 256;
 constexpr std::size_t kMapRecord = 3;
 constexpr std::size_t kMaterialRecord = 15;
-constexpr std::size_t kMaxTextures = 255; // indices of materials are at most 65,535
+constexpr std::size_t kMaxTextures = 255; // 256 * texture + colour is at most 65,535
 
 bool is_used(unsigned index, const CpfgUses& uses, unsigned first_colour) {
     return uses.has_any_colour || uses.steps_colours || index == first_colour ||
