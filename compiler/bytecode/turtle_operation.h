@@ -75,7 +75,7 @@ inline constexpr std::array<TurtleInfo, kTurtleOperationCount> TurtleInfo::kRows
 [[nodiscard]] constexpr bool draws(TurtleOperation operation) {
     return info(operation).drawn != DrawnKind::Nothing;
 }
-/// Whether the operation turns the turtle by an angle.
+/// Whether the operation turns the turtle by its parameter.
 [[nodiscard]] constexpr bool turns(TurtleOperation operation) {
     const QuickAction quick = info(operation).quick;
     return quick == QuickAction::Yaw || quick == QuickAction::Pitch || quick == QuickAction::Roll;

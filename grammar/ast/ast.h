@@ -344,7 +344,7 @@ struct Ast {
     ChunkedVector<ModuleNode> modules;
     ChunkedVector<CallNode> calls;
 
-    /// Sorted by file, then by begin.
+    /// Module names that their files spell differently, sorted by file, then by begin.
     std::vector<WrittenName> written_names;
     /// Each `//` before a word in a module list; the author may have meant a comment.
     std::vector<SourceSpan> slashes;

@@ -193,8 +193,8 @@ TEST_CASE("no tree goes beyond the bounds of its cache") {
     const InstanceCache& cache = planted.cache;
     const TreeBounds bounds = tree_bounds(cache, surface_reaches(cache));
     const PartSkeletons skeletons(cache);
-    // The largest ratio of the distance between a tree and its plant with stand-ins to the bound of
-    // this distance.
+    // Max of distance / bound, of the distance between a tree and the whole() of its root instance,
+    // in which the first instance of each slot stands for the others.
     double largest = 0.0;
     for (std::uint32_t number = 0; number < 60; ++number) {
         const std::uint32_t root = branches_of(cache, number).front().instance;

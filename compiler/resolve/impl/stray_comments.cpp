@@ -196,7 +196,7 @@ private:
         if (id == kNoName || index_of(id) >= known_.size() || !splitter_.may_split(id)) {
             return true;
         }
-        // The parameters behind the word have been left out.
+        // without_arguments() has removed the arguments: try each number of them.
         constexpr std::uint32_t kMaxParameters = 8;
         for (std::uint32_t count = 0; count <= kMaxParameters; ++count) {
             if (!splitter_.parts(id, count, file).empty()) {

@@ -41,7 +41,7 @@ ForeignId CpfgExpressions::element(const ForeignNode& node) {
         return unsupported(node.span, "`" + shown(node.text) + "` has " +
                                           std::to_string(array.sizes.size()) + " dimensions");
     }
-    if (in_header_ && !in_step_) { // the elements may change after this statement
+    if (in_header_ && !in_step_) { // the present value: elements may change later
         const std::optional<std::size_t> place = known_place(array, node);
         return place ? array.values[*place]
                      : unsupported(node.span, "an element whose index is not known before the word "

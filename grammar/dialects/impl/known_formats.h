@@ -17,8 +17,8 @@ struct KnownFormat {
 
 /// The format of lines without blanks at their ends, none of them empty; nullopt if none is shown.
 [[nodiscard]] std::optional<KnownFormat> find_known_format(std::span<const std::string_view> lines);
-/// "plain prose" for sentences of a natural language, or the name of a table with the same number
-/// of commas in each line; nullopt for other texts.
+/// "plain prose" for sentences of a natural language, or "a table of ..." for lines with the same
+/// number of commas; nullopt for other texts.
 [[nodiscard]] std::optional<KnownFormat> find_plain_text(std::span<const std::string_view> lines);
 
 } // namespace lsys

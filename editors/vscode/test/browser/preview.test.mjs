@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page of the preview in Chromium, with plants of the server. PlantSession stands for the whole
-// extension, and a list of the ranges that it selects for the editor.
+// Tests the page of the preview in Chromium, with plants of the server. There is no VS Code: the
+// test records the ranges that PlantSession selects in the editor.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
