@@ -193,8 +193,9 @@ TEST_CASE("no tree goes beyond the bounds of its cache") {
     const InstanceCache& cache = planted.cache;
     const TreeBounds bounds = tree_bounds(cache, surface_reaches(cache));
     const PartSkeletons skeletons(cache);
-    // Max of distance / bound, of the distance between a tree and the whole() of its root instance,
-    // in which the first instance of each slot stands for the others.
+    // Largest ratio of the actual deviation to bounds.deviation. The deviation is the distance
+    // between a tree and PartSkeletons::whole() of its root instance, which puts the first instance
+    // of a slot in place of every instance with the same key.
     double largest = 0.0;
     for (std::uint32_t number = 0; number < 60; ++number) {
         const std::uint32_t root = branches_of(cache, number).front().instance;

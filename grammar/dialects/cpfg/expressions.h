@@ -187,7 +187,7 @@ private:
     bool quiet_ = false;               // see set_quiet()
 };
 
-/// `text` as a name of .lsys, or `fallback`.
+/// `text` with `_` for invalid characters; `fallback` if only `_` is left.
 [[nodiscard]] std::string cpfg_name_of(std::string_view text, std::string_view fallback);
 [[nodiscard]] bool is_cpfg_number(std::string_view text);
 /// Whether a number is 0. Precondition: is_cpfg_number(text).

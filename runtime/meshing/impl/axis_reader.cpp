@@ -32,7 +32,7 @@ constexpr float kThickestBranch = 1.5F; // in radii of the parent; thicker ones 
 constexpr float kCollarSlope = 0.13F;   // increase of radius per length towards the base
 constexpr float kMinSine = 0.5F;     // min sine of a branch's angle, for the length of its collar
 constexpr float kMaxCollar = 0.7F;   // max length of a collar per length of its edge
-constexpr float kCollarReach = 1.5F; // of a collar by `#set collar`, in radii of the parent
+constexpr float kCollarReach = 1.5F; // by `#set collar`, from the surface, in radii of the parent
 constexpr std::array<std::uint32_t, kMaxShapedLevel + 1> kSidesPerRoot{6, 4}; // by level
 constexpr float kMaxParts = 16.0F;      // max pieces into which an edge is cut for noise
 constexpr std::size_t kExtraJoints = 2; // joints beside those of segments: a collar and the tip

@@ -108,7 +108,7 @@ Outcome<void> derive(Session& session, const Json& request, Answer& answer) {
     return step.done();
 }
 
-/// Compiles and draws the grammar of the request.
+/// Compiles and derives the grammar of the request, and draws its word.
 bool grow(Step& step, const Session& session, const Json& request, Plant& plant) {
     Grammar grammar;
     return step.take(load_grammar(name_of(request), grammar_options_of(request), session.project()),
