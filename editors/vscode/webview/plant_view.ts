@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // PlantView: shows the GLB of `lsys/plant` by three.js. Does not depend on VS Code.
 //
-// The attribute `_ITEMS` of the GLB has two numbers per vertex: indexes in `Plant.sources` of the two
-// parts of the plant that meet there. A triangle belongs to the source that all its corners share.
+// The attribute `_ITEMS` of the GLB has two numbers per vertex: indexes in `Plant.sources` of the
+// two parts of the plant that meet there. A triangle belongs to the source that all its corners share.
 
 import {
   BufferAttribute,
