@@ -38,6 +38,7 @@ Outcome<Grammar> compile(Call& call,
             auto data = std::make_shared<Grammar::Data>();
             data->name = name;
             data->file = file;
+            data->inputs = call.files();
             data->policy = call.policy();
             data->constants = constants_of(grammar);
             grammar.program.reset(); // the bytecode is complete
