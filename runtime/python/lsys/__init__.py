@@ -223,18 +223,15 @@ def _matrices(instances):
     return matrices.reshape(-1, 4, 4).transpose(0, 2, 1)
 
 
-_empty_forest = Forest.__new__
-_make_forest = Forest.__init__
-
-
 def _forest_new(cls, scene, *, defines=None, settings=None, generations=None, **options):
     """Makes the forest whole: no function could use one without a value."""
     files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
         os.fspath(path) for path in scene]
     calls, named = _arguments.split(options)
-    forest = _empty_forest(cls)
-    _make_forest(forest, files, None, named, dict(defines or {}), dict(settings or {}),
-                 generations, **calls)
+    forest = _lsys._grow_forest(files, None, named, dict(defines or {}), dict(settings or {}),
+                                generations, **calls)
+    if cls is not Forest:
+        forest.__class__ = cls
     return forest
 
 
@@ -281,10 +278,8 @@ def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, spec
     files = [os.fspath(grammars)] if isinstance(grammars, (str, os.PathLike)) else [
         os.fspath(path) for path in grammars]
     calls, named = _arguments.split(options)
-    forest = _empty_forest(Forest)
-    _make_forest(forest, files, places, named, dict(defines or {}), dict(settings or {}),
-                 generations, **calls)
-    return forest
+    return _lsys._grow_forest(files, places, named, dict(defines or {}), dict(settings or {}),
+                              generations, **calls)
 
 
 def _instances(forest):
