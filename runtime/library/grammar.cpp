@@ -78,6 +78,7 @@ double rounded(const Count& count) {
     copy.sources = std::make_shared<SourceMap>(*original.sources);
     copy.bytecode = original.bytecode;
     copy.height_span = original.height_span;
+    copy.object_spans = original.object_spans;
     copy.is_module_file = original.is_module_file;
     return copy;
 }
