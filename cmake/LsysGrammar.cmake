@@ -12,6 +12,8 @@ function(lsys_add_grammar target folder)
   bison_target(${dialect}_parser "${source}/parser.yy" "${out}/parser.cpp"
     DEFINES_FILE "${out}/parser.h"
     COMPILE_FLAGS "-Wall -Wcounterexamples -Werror -M ${PROJECT_SOURCE_DIR}=. -M ${PROJECT_BINARY_DIR}=.")
+  add_custom_command(OUTPUT "${out}/parser.cpp" APPEND COMMAND
+    "${CMAKE_COMMAND}" -D "HEADER=${out}/parser.h" -P "${PROJECT_SOURCE_DIR}/cmake/BisonStack.cmake")
   flex_target(${dialect}_scanner "${source}/scanner.ll" "${out}/scanner.cpp"
     DEFINES_FILE "${out}/scanner.h")
   add_flex_bison_dependency(${dialect}_scanner ${dialect}_parser)

@@ -165,7 +165,9 @@ private:
 
 /// The first candidate that differs from `wanted` only in letter case; else the candidate nearest
 /// by edit distance, if at most a third of the letters of the shorter name differ, and the first of
-/// equally near ones. Skips candidates that equal `wanted`.
+/// equally near ones. Names of more than 64 letters are compared without letter case only, because
+/// the time of edit distances grows with the square of the length. Skips candidates that equal
+/// `wanted`.
 [[nodiscard]] std::optional<std::string_view>
 nearest_name(std::string_view wanted, const std::vector<std::string_view>& candidates);
 

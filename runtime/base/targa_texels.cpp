@@ -163,16 +163,11 @@ private:
 
 } // namespace
 
-bool is_targa(std::string_view bytes) {
-    return TargaFile(bytes).read_header();
-}
-
-Result<PictureTexels>
+std::optional<Result<PictureTexels>>
 read_targa_texels(std::string_view bytes, std::uint64_t max_pixels, std::uint64_t max_bytes) {
     TargaFile file(bytes);
     if (!file.read_header()) {
-        return Error{"the TGA picture cannot be read: its header is of no picture in colours or "
-                     "greys"};
+        return std::nullopt;
     }
     if (const Result<void> fits =
             check_picture_size(file.columns, file.rows, kChannels, max_pixels, max_bytes);

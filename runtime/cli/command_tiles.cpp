@@ -14,8 +14,8 @@ namespace {
 
 /// Writes the files of this part in ascending order of their numbers. The last one is tileset.json
 /// of the root, if it belongs to the part.
-void write_part(TilesetFolder& folder, const TilesCommand& command) {
-    folder.make();
+void write_part(TilesetFolder& folder, const TilesCommand& command, std::uint64_t digest) {
+    folder.make(digest);
     Workers workers(command.run.threads);
     const NextFile next = files_of_part(command.part, folder.root());
     workers.for_each(workers.count(), [&](std::uint64_t) { folder.write_from(next); });
@@ -37,7 +37,7 @@ ExitStatus run_command(const TilesCommand& command, const Console& console) {
         return status;
     }
     TilesetFolder folder(command, *forest, console);
-    write_part(folder, command);
+    write_part(folder, command, forest->digest());
     if (console.interrupted()) {
         return ExitStatus::Interrupted;
     }

@@ -170,8 +170,10 @@ void add_tiles(CLI::App& app, TilesCommand& command) {
         ->type_name("FOLDER");
     app.add_flag("-f,--force", command.force,
                  "Write into a folder that has files; files of the same names are replaced");
-    app.add_flag("--resume", command.resume,
-                 "Write only the files that the folder does not have yet, of the same scene");
+    app.add_flag(
+        "--resume", command.resume,
+        "Write only the files that the folder does not have yet; an error if its tiles are of "
+        "another scene or of other options");
     add_parsed(app, "--part", command.part, parse_part,
                "Write only part I of N; N processes write a tileset, each another part")
         ->type_name("I/N");

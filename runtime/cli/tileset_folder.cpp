@@ -4,6 +4,7 @@
 #include "grammar/base/counted_text.h"
 #include "grammar/base/paths.h"
 #include "runtime/base/size_text.h"
+#include "runtime/cli/tileset_record.h"
 #include "runtime/platform/file.h"
 #include "runtime/program/files.h"
 
@@ -102,8 +103,27 @@ void TilesetFolder::add_section(Kind kind, std::uint32_t level) {
     sections_.push_back({kind, level, tiles.columns, count() + tiles.count()});
 }
 
-void TilesetFolder::make() {
+void TilesetFolder::make(std::uint64_t digest) {
     make_folder("");
+    if (is_stopped_) {
+        return;
+    }
+    const bool keeps = command_.resume || !command_.force;
+    const TilesetRecord record = find_tileset_record(command_.output, digest);
+    if (record == TilesetRecord::Same) {
+        return;
+    }
+    if (record == TilesetRecord::NoTiles) {
+        take(write_tileset_record(command_.output, digest, console_));
+    } else if (keeps) {
+        stop(other_tiles_error(command_.output, record));
+    } else {
+        // Until all tiles are replaced, no later run may keep them.
+        take(remove_tileset_record(command_.output));
+        if (command_.part.count == 1) {
+            late_digest_ = digest;
+        }
+    }
 }
 
 void TilesetFolder::write(std::uint64_t number) {
@@ -111,6 +131,9 @@ void TilesetFolder::write(std::uint64_t number) {
         name_files(); // before the root, which shows that the tileset is complete
         write_numbered(number);
         name_files();
+        if (late_digest_ && !is_stopped()) {
+            take(write_tileset_record(command_.output, *late_digest_, console_));
+        }
     } else {
         write_numbered(number);
     }
@@ -200,9 +223,7 @@ void TilesetFolder::name_files() {
     // After a power failure a name must not stand for a file whose bytes were never stored.
     platform::store_file_system(command_.output);
     for (Output& output : outputs) {
-        if (const Result<void> named = output.commit(); !named) {
-            stop(named.error());
-        }
+        take(output.commit());
     }
 }
 
@@ -217,6 +238,12 @@ void TilesetFolder::make_folder(std::string_view path) {
     if (error && result_) {
         result_ = Error{fmt::format("cannot make the folder `{}`: {}", whole, error.message())};
         is_stopped_ = true;
+    }
+}
+
+void TilesetFolder::take(const Result<void>& done) {
+    if (!done) {
+        stop(done.error());
     }
 }
 

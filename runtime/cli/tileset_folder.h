@@ -57,8 +57,9 @@ public:
     /// shows that the tileset is complete.
     [[nodiscard]] std::uint64_t root() const { return count() - 1; }
 
-    /// Makes the folder of the tileset.
-    void make();
+    /// Makes the folder of the tileset, and records `digest` in it: TileForest::digest(). Stops
+    /// the writer if the folder has tiles of another digest, or of none, which the command keeps.
+    void make(std::uint64_t digest);
     /// Writes a file, unless the folder has it and the command resumes. May be called from several
     /// threads with different numbers. Throws std::bad_alloc.
     void write(std::uint64_t number);
@@ -91,6 +92,8 @@ private:
     void write_file_at(const std::string& path, const Make& make);
     /// Makes a folder below the folder of the tileset.
     void make_folder(std::string_view path);
+    /// Stops the writer if `done` is an error.
+    void take(const Result<void>& done);
     /// Stores the files of `outputs_` on the disk, then gives them their names.
     void name_files();
 
@@ -107,6 +110,9 @@ private:
     std::set<std::string> folders_; // folders that exist
     Result<void> result_;
     std::vector<Output> outputs_; // complete files under temporary names
+    /// The digest to record when all files are written, because the folder has other tiles, which
+    /// the command replaces.
+    std::optional<std::uint64_t> late_digest_;
 };
 
 } // namespace lsys::lsc

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -461,8 +462,12 @@ Diagnostic limit_diagnostic(const LimitReport& report,
     const bool axiom = report.modules == 0 && report.generation == 0 && !report.streamed;
     const std::uint64_t failed =
         std::uint64_t{report.generation} + (axiom || report.streamed ? 0 : 1);
-    const std::string size = modules ? grouped_digits(report.predicted_modules) + " modules"
-                                     : byte_size_text(report.predicted_bytes);
+    // Counts end at the largest number, which stands for all numbers from it on.
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    const bool is_countless = modules && report.predicted_modules == kMost;
+    const std::string size = is_countless ? "2^64 modules or more"
+                             : modules    ? grouped_digits(report.predicted_modules) + " modules"
+                                          : byte_size_text(report.predicted_bytes);
     const std::string limit =
         modules ? grouped_digits(limits.max_modules) : byte_size_text(limits.max_bytes);
     Diagnostic diagnostic = make_diagnostic(
@@ -472,7 +477,8 @@ Diagnostic limit_diagnostic(const LimitReport& report,
                           report.predicted_bytes == 0 ? "" : ", which takes ",
                           report.exact ? "" : "at least ", report.predicted_bytes == 0 ? "" : size)
             : fmt::format("generation {} {} {}{}, over the limit of {}", failed,
-                          modules ? "has" : "takes", report.exact ? "" : "at least ", size, limit));
+                          modules ? "has" : "takes",
+                          report.exact || is_countless ? "" : "at least ", size, limit));
     diagnostic.facts.push_back({"generation", failed});
     diagnostic.facts.push_back({"last_that_fits", std::uint64_t{report.generation}});
     diagnostic.facts.push_back({"modules", report.modules});
@@ -497,7 +503,7 @@ Diagnostic limit_diagnostic(const LimitReport& report,
     diagnostic.notes.push_back(fmt::format("generation {}, with {} modules, is the last that fits",
                                            report.generation, grouped_digits(report.modules)));
     std::string help = fmt::format("ask for fewer generations: `-n {}`", report.generation);
-    if (!no_memory) {
+    if (!no_memory && !is_countless) { // no limit is so high
         help += modules ? fmt::format(", or raise the limit: `--max-modules {}`",
                                       report.predicted_modules)
                         : ", or raise the limit with `--max-memory`";

@@ -81,6 +81,44 @@ ExitStatus write_grown(const PlantFileOptions& options,
                : status;
 }
 
+/// The files that the grammar of a plant names, and those that its growth has read.
+std::vector<std::string> inputs_of(const Plant::Data& plant) {
+    const Grammar::Data& read = plant.grammar.data();
+    std::vector<std::string> inputs = named_files(read.grammar.bytecode, read.file);
+    inputs.insert(inputs.end(), read.inputs.begin(), read.inputs.end());
+    inputs.insert(inputs.end(), plant.inputs.begin(), plant.inputs.end());
+    return inputs;
+}
+
+/// Writes a mesh of a plant, unchanged. Stops with a message if no format has this name, or if it
+/// does not accept the options.
+::lsys::Outcome<void> write_mesh(const Plant::Data& plant,
+                                 const Mesh& mesh,
+                                 std::string_view format,
+                                 const ExportOptions& options,
+                                 std::uint32_t threads,
+                                 const ByteSink& sink) {
+    const std::optional<ExportFormat> found = find_format(format);
+    std::string refusal = found ? find_conflict(traits_of(*found), options)
+                                : fmt::format("there is no format `{}`", format);
+    if (!refusal.empty()) {
+        ::lsys::Messages messages;
+        messages.add_error(std::move(refusal));
+        return {Stop::Failed, std::move(messages)};
+    }
+    ExportInfo info;
+    info.grammar = path_text(path_of(plant.options.file).filename());
+    info.name = options.name;
+    info.seed = plant.plant.seed;
+    info.generations = plant.plant.generations;
+    info.generator = fmt::format("liblsys {}", version());
+    info.compression = inner_compression(options.compression);
+    info.threads = threads;
+    info.user_meshes = &plant.plant.user_meshes;
+    info.up = options.up == UpAxis::Z ? ::lsys::UpAxis::Z : ::lsys::UpAxis::Y;
+    return export_mesh(*mesh.data().mesh, plant.plant.skeleton, *found, info, sink);
+}
+
 Outcome<std::vector<std::string>> write_plant_to(const Plant& plant,
                                                  const std::string& path,
                                                  const FileReceiver* receive,
@@ -106,9 +144,8 @@ Outcome<std::vector<std::string>> write_plant_to(const Plant& plant,
         return conflict.empty() ? write_grown(file_options, *format, plant.data(), context)
                                 : report_error(Error{conflict}, context.console);
     };
-    const std::vector<std::string> inputs = named_files(read.grammar.bytecode, read.file);
     return call.run<std::vector<std::string>>(
-        [&] { return write_files(call, receive, inputs, write); },
+        [&] { return write_files(call, receive, inputs_of(plant.data()), write); },
         [](std::vector<std::string> paths) { return paths; });
 }
 
@@ -138,38 +175,40 @@ Outcome<std::uint64_t> export_plant(const Plant& plant,
                                     const Project& project) {
     const Grammar::Data& read = plant.data().grammar.data();
     Call call(project, {read.file}, read.policy);
-    const ::lsys::Plant& drawn = plant.data().plant;
     std::uint64_t bytes = 0;
     const auto work = [&]() -> ::lsys::Outcome<std::uint64_t> {
-        const std::optional<ExportFormat> found = find_format(format);
-        ::lsys::Messages messages;
-        std::string refusal = found ? find_conflict(traits_of(*found), options)
-                                    : fmt::format("there is no format `{}`", format);
-        if (!refusal.empty()) {
-            messages.add_error(std::move(refusal));
-            return {Stop::Failed, std::move(messages)};
-        }
-        ExportInfo info;
-        info.grammar = path_text(path_of(plant.data().options.file).filename());
-        info.name = options.name;
-        info.seed = drawn.seed;
-        info.generations = drawn.generations;
-        info.generator = fmt::format("liblsys {}", version());
-        info.compression = inner_compression(options.compression);
-        info.threads = project.threads;
-        info.user_meshes = &drawn.user_meshes;
-        info.up = options.up == UpAxis::Z ? ::lsys::UpAxis::Z : ::lsys::UpAxis::Y;
-        ::lsys::Outcome<void> written = export_mesh(*mesh.data().mesh, drawn.skeleton, *found, info,
-                                                    call.guarded_sink([&](std::string_view piece) {
-                                                        bytes += piece.size();
-                                                        return write(piece);
-                                                    }));
+        ::lsys::Outcome<void> written =
+            write_mesh(plant.data(), mesh, format, options, project.threads,
+                       call.guarded_sink([&](std::string_view piece) {
+                           bytes += piece.size();
+                           return write(piece);
+                       }));
         if (!written) {
             return {written.stop(), std::move(written.messages())};
         }
         return {bytes, std::move(written.messages())};
     };
     return call.run<std::uint64_t>(work, [](std::uint64_t count) { return count; });
+}
+
+Outcome<std::vector<std::string>> save_mesh(const Plant& plant,
+                                            const Mesh& mesh,
+                                            const std::string& path,
+                                            std::string_view format,
+                                            const ExportOptions& options,
+                                            const Project& project) {
+    const Grammar::Data& read = plant.data().grammar.data();
+    Call call(project, {read.file}, read.policy);
+    const auto write = [&](const OutputContext& context) {
+        OutputSet files(context);
+        const ExitStatus status = files.add(path, [&](const ByteSink& sink) {
+            return write_mesh(plant.data(), mesh, format, options, project.threads, sink);
+        });
+        return status == ExitStatus::Ok ? files.commit() : status;
+    };
+    return call.run<std::vector<std::string>>(
+        [&] { return write_files(call, nullptr, inputs_of(plant.data()), write); },
+        [](std::vector<std::string> paths) { return paths; });
 }
 
 const std::vector<std::string>& preset_names() {

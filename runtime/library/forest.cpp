@@ -170,6 +170,7 @@ Outcome<Forest> grow(ForestSource source, const ForestOptions& options, const Pr
     };
     return call.run<Forest>(work, [&](LoadedForest forest) {
         std::vector<Species> species = species_of(forest);
+        source.inputs = call.files();
         return Forest(std::make_shared<const Forest::Data>(
             Forest::Data{std::move(source), std::move(forest), std::move(species)}));
     });
@@ -266,7 +267,7 @@ Outcome<std::vector<std::string>> write_forest_to(const Forest& forest,
                    : report_error(Error{conflict}, context.console);
     };
     return call.run<std::vector<std::string>>(
-        [&] { return write_files(call, receive, read.files, write); },
+        [&] { return write_files(call, receive, read.inputs, write); },
         [](std::vector<std::string> paths) { return paths; });
 }
 

@@ -38,6 +38,7 @@ Outcome<Grammar> compile(Call& call,
             auto data = std::make_shared<Grammar::Data>();
             data->name = name;
             data->file = file;
+            data->inputs = call.files();
             data->policy = call.policy();
             data->constants = constants_of(grammar);
             grammar.program.reset(); // the bytecode is complete
@@ -77,6 +78,7 @@ double rounded(const Count& count) {
     copy.sources = std::make_shared<SourceMap>(*original.sources);
     copy.bytecode = original.bytecode;
     copy.height_span = original.height_span;
+    copy.object_spans = original.object_spans;
     copy.is_module_file = original.is_module_file;
     return copy;
 }

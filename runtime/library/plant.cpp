@@ -205,8 +205,8 @@ Outcome<Plant> grow(const Grammar& grammar, const GrowOptions& options, const Pr
         return grow_plant(inner, copy, call.project());
     };
     return call.run<Plant>(work, [&](::lsys::Plant plant) {
-        return Plant(
-            std::make_shared<const Plant::Data>(Plant::Data{std::move(plant), grammar, inner}));
+        return Plant(std::make_shared<const Plant::Data>(
+            Plant::Data{std::move(plant), grammar, inner, call.files()}));
     });
 }
 

@@ -37,9 +37,10 @@ struct DetailLevel {
     /// wood and foliage cover the same area of a picture as at level 0.
     float wood_scale = 1.0F;
     float foliage_scale = 1.0F;
-    /// Factor of the linear colours of materials, or of the picture of the impostor, with which the
-    /// level has the mean colour of level 0. 1 if DetailChain::pictures is not set, or if a part
-    /// has several colours.
+    /// Factor of the linear colours of materials, or of the picture of the impostor, that brings
+    /// the mean colour of the level to that of level 0: 0.25 to 4 for each component, or exactly 1
+    /// if it is nearer than 0.002 to 1. Impostors that are fitted always get one, other levels only
+    /// with DetailChain::pictures. A mesh with a part of several colours is drawn without it.
     glm::vec3 tint{1.0F};
     /// Colour of all materials before the tint. Set if no moderate tint gives the materials that
     /// stay the mean colour of level 0.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace lsys {
@@ -34,6 +35,18 @@ std::string_view other_format(std::string_view bytes) {
     return found == kKnown.end() ? std::string_view() : found->name;
 }
 
+/// The texels of a JPEG, SGI or TGA picture; nullopt: the file is of no such format.
+std::optional<Result<PictureTexels>> read_other_texels(std::string_view bytes,
+                                                       std::uint64_t max_bytes) {
+    if (is_jpeg(bytes)) {
+        return read_jpeg_texels(bytes, kMaxTexels, max_bytes);
+    }
+    if (is_sgi(bytes)) {
+        return read_sgi_texels(bytes, kMaxTexels, max_bytes);
+    }
+    return read_targa_texels(bytes, kMaxTexels, max_bytes);
+}
+
 float linear(std::uint8_t value) { // IEC 61966-2-1
     const float c = static_cast<float>(value) / 255.0F;
     return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
@@ -46,18 +59,16 @@ Result<Texture> read_picture(std::string_view bytes, std::uint64_t max_bytes) {
         return Error{fmt::format("it is a {}; only PNG, JPEG, SGI and TGA are read", format)};
     }
     Texture texture;
-    const auto read_texels = is_jpeg(bytes)    ? read_jpeg_texels
-                             : is_sgi(bytes)   ? read_sgi_texels
-                             : is_targa(bytes) ? read_targa_texels
-                                               : nullptr;
-    if (read_texels != nullptr) {
-        Result<PictureTexels> read = read_texels(bytes, kMaxTexels, max_bytes);
+    if (!bytes.starts_with("\x89PNG")) {
+        std::optional<Result<PictureTexels>> read = read_other_texels(bytes, max_bytes);
         if (!read) {
-            return read.error();
+            return Error{"it is no PNG, JPEG, SGI or TGA picture"};
         }
-        texture = {read.value().columns, read.value().rows, std::move(read.value().bytes)};
-    } else if (!bytes.starts_with("\x89PNG")) {
-        return Error{"it is no PNG, JPEG, SGI or TGA picture"};
+        if (!*read) {
+            return read->error();
+        }
+        PictureTexels& texels = read->value();
+        texture = {texels.columns, texels.rows, std::move(texels.bytes)};
     } else {
         Result<PngSamples> read =
             read_png_samples(bytes, {PngForm::Rgba, kMaxTexels, max_bytes, 0, "picture"});

@@ -32,7 +32,7 @@ public:
 
     ExitStatus write(const TileForest& forest) {
         lsc::TilesetFolder folder(command_, forest, console_);
-        plan_ = hash_of(forest);
+        plan_ = forest.digest();
         {
             Crew crew(folder, command_.run.threads);
             crew.run([&] { return step(folder, crew); });
@@ -118,7 +118,7 @@ private:
     const lsc::TilesCommand& command_;
     Ranks& ranks_;
     const Console& console_;
-    std::uint64_t plan_ = 0;       // hash of the plan
+    std::uint64_t plan_ = 0;       // TileForest::digest()
     bool has_asked_ = false;       // a Request has no answer yet
     bool has_failed_ = false;      // Failed was sent
     bool is_told_to_stop_ = false; // Stop was received

@@ -83,9 +83,10 @@ private:
 
     void write(const TileForest& forest) {
         lsc::TilesetFolder folder(command_, forest, console_);
-        plan_ = hash_of(forest);
+        plan_ = forest.digest();
         end_ = folder.root();
-        folder.make();
+        folder.make(plan_);
+        note_failure(folder); // before a rank gets work
         {
             Crew crew(folder, command_.run.threads);
             crew.run([&] { return step(folder, crew); });
@@ -273,7 +274,7 @@ private:
     const Console& console_;
     const std::function<std::string()>& late_; // see lead_tiles()
     std::vector<RankState> states_;            // by rank
-    std::uint64_t plan_ = 0;                   // hash of the plan
+    std::uint64_t plan_ = 0;                   // TileForest::digest()
     std::uint64_t next_ = 0;                   // the next file to hand out
     std::uint64_t end_ = 0;                    // one more than the last file to hand out
     bool is_stopping_ = false;                 // stop_all() was called

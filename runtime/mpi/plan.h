@@ -7,7 +7,6 @@
 #include "runtime/tiles/tiles.h"
 
 #include <chrono>
-#include <cstdint>
 #include <optional>
 
 namespace lsys::mpi {
@@ -25,8 +24,5 @@ inline constexpr std::chrono::milliseconds kIdleTime{20};
 [[nodiscard]] ExitStatus plan_tiles(const lsc::TilesCommand& command,
                                     const Console& console,
                                     std::optional<TileForest>& forest);
-
-/// A hash of the tileset. Ranks that would write the same files have the same hash.
-[[nodiscard]] std::uint64_t hash_of(const TileForest& forest);
 
 } // namespace lsys::mpi

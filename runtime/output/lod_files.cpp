@@ -2,6 +2,7 @@
 #include "runtime/output/lod_files.h"
 
 #include "grammar/base/paths.h"
+#include "runtime/export/take_apart.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,6 +55,7 @@ std::string lods_json_path(const std::string& path) {
 std::string
 lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<LodFile>& files) {
     nlohmann::ordered_json object = nlohmann::ordered_json::object();
+    const TakesApart taken(object);
     object["generator"] = info.generator;
     object["grammar"] = info.grammar;
     object["seed"] = info.seed;
@@ -64,6 +66,7 @@ lods_json(const ExportInfo& info, const PlantExtent& extent, const std::vector<L
     for (const LodFile& file : files) {
         const bool is_first = object["levels"].empty();
         nlohmann::ordered_json level = nlohmann::ordered_json::object();
+        const TakesApart taken_level(level);
         level["file"] = file.name;
         level["triangles"] = file.triangles;
         level["distance"] = is_first ? 0.0 : lod_distance(extent, file.pixels);

@@ -498,12 +498,20 @@ std::optional<std::size_t> find_reusable(const SceneSpecies& species,
     return std::nullopt;
 }
 
-/// The error for an option about density that the placement does not read, and for a placement
-/// without a density; empty: no error.
-std::string density_mistake(const SceneOverrides& overrides, const Scene& scene) {
+/// The error for an option that the placement does not read, and for a placement without a density;
+/// empty: no error.
+std::string placement_mistake(const SceneOverrides& overrides, const Scene& scene) {
     const PlacementMethod method = scene.placement.method;
     const bool reads_map =
         method == PlacementMethod::DensityMap || method == PlacementMethod::DensityCells;
+    if (overrides.count && !reads_count(method)) {
+        return "--count: of the placements, only uniform and domination have a number of trees; "
+               "others have a --spacing or a --density";
+    }
+    if (overrides.spacing && !reads_spacing(method)) {
+        return "--spacing: of the placements, only poisson-disk, jittered and poisson-cells have a "
+               "distance between trees";
+    }
     if (overrides.density && !reads_density(method)) {
         return "--density: of the placements, only density-map, density-cells and uniform-cells "
                "have a density";
@@ -557,7 +565,7 @@ Outcome<LoadedScene> load_scene(const std::vector<std::string>& files,
     if (const Result<void> applied = apply(overrides, loaded.scene); !applied) {
         return step.fail(applied.error());
     }
-    if (std::string mistake = density_mistake(overrides, loaded.scene); !mistake.empty()) {
+    if (std::string mistake = placement_mistake(overrides, loaded.scene); !mistake.empty()) {
         return step.fail(std::move(mistake));
     }
     return step.done(std::move(loaded));

@@ -295,6 +295,11 @@ Result<CompiledText> compile_text(const std::string& path,
     grammar.program = std::move(outcome.program);
     if (grammar.program) {
         grammar.height_span = grammar.program->height_span;
+        for (const ObjectBinding& binding : grammar.program->objects) {
+            if (!binding.mesh_file.empty()) {
+                grammar.object_spans.emplace(binding.mesh_file, binding.object_span);
+            }
+        }
     }
     if (outcome.bytecode) {
         grammar.bytecode = std::move(*outcome.bytecode);

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,8 @@ struct Grammar {
     Bytecode bytecode;
     /// Place of `height` in `#set height`; kNoFile if missing or a .lsb file.
     SourceSpan height_span;
+    /// Places of the files of `#object`, by BytecodeSymbol::mesh_file; empty for a .lsb file.
+    std::map<std::string, SourceSpan, std::less<>> object_spans;
     std::string translation;     // .lsys text of a grammar in another dialect
     bool is_module_file = false; // read from a .lsb file; `sources` then has only texts of --set
 };

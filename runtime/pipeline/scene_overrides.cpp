@@ -218,6 +218,16 @@ void choose_method(SceneOverrides& overrides, PlacementMethod method, const Scen
     if (reads_density(method) && !reads_density(current.method)) {
         overrides.density = trees / area;
     }
+    // Values that the method does not read are errors (load_scene()).
+    if (!reads_count(method)) {
+        overrides.count.reset();
+    }
+    if (!reads_spacing(method)) {
+        overrides.spacing.reset();
+    }
+    if (!reads_density(method)) {
+        overrides.density.reset();
+    }
     if (method == PlacementMethod::Domination && current.years == 0) {
         overrides.years = 50;
     }

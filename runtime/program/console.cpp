@@ -174,6 +174,7 @@ messages_text(const Messages& messages, const MessageOptions& options, const cha
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream err;
+    err.exceptions(std::ios::badbit); // else a lack of memory would cut the text off
     Console({in, out, err, false, nullptr, program}, options).show(messages);
     return std::move(err).str();
 }

@@ -28,6 +28,20 @@ std::string numbered_path_of(const std::string& target, int number) {
     return temporary_path(target, std::to_string(number));
 }
 
+/// Whether numbered_path_of() returns `path`. Allocates nothing.
+bool is_numbered_path(std::string_view path, std::string_view target) {
+    static_assert(kNumberedNames <= 10); // one digit
+    constexpr std::string_view kBefore = ".lsys-";
+    constexpr std::string_view kBehind = ".tmp";
+    if (!path.starts_with(target)) {
+        return false;
+    }
+    const std::string_view end = path.substr(target.size());
+    return end.size() == kBefore.size() + 1 + kBehind.size() && end.starts_with(kBefore) &&
+           end.ends_with(kBehind) && end[kBefore.size()] >= '0' &&
+           end[kBefore.size()] < '0' + kNumberedNames;
+}
+
 /// Six random letters or digits.
 std::string random_letters() {
     constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
@@ -72,14 +86,12 @@ create_temporary_file(const std::string& target, bool is_private, std::string& p
     return EEXIST;
 }
 
-void remove_unlocked_temporary(const std::string& path, const std::string& target) {
-    for (int number = 0; number < kNumberedNames; ++number) {
-        if (path == numbered_path_of(target, number)) {
-            platform::remove_unlocked_file(path, platform::WithoutLocks::Remove);
-            return;
-        }
+void remove_unlocked_temporary(const std::string& path, const std::string& target) noexcept {
+    if (is_numbered_path(path, target)) {
+        platform::remove_unlocked_file(path, platform::WithoutLocks::Remove);
+    } else {
+        platform::remove_file(path.c_str()); // nobody else takes a random name
     }
-    platform::remove_file(path.c_str()); // nobody else takes a random name
 }
 
 } // namespace lsys

@@ -18,7 +18,7 @@ namespace lsys {
                                                      std::string& path,
                                                      platform::File& file);
 /// Removes the file that create_temporary_file() named `path`, unlocked. Leaves a file that another
-/// process has made under this name since.
-void remove_unlocked_temporary(const std::string& path, const std::string& target);
+/// process has made under this name since. Needs no memory, as destructors call it.
+void remove_unlocked_temporary(const std::string& path, const std::string& target) noexcept;
 
 } // namespace lsys

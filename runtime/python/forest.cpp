@@ -101,22 +101,6 @@ void bind_forest(py::module_& module) {
             py::arg("to").noconvert(), "first"_a = 0);
     py::class_<lsys::Forest>(module, "Forest", "Trees of some species on a ground.",
                              py::dynamic_attr())
-        .def(py::init([](const std::vector<std::string>& files, const py::object& places,
-                         const lsys::Options& scene, const std::map<std::string, float>& defines,
-                         const py::dict& settings, std::optional<std::uint32_t> generations,
-                         const py::kwargs& rest) {
-                 const lsys::ForestOptions options{
-                     grammar_options(defines, settings, generations, "", "", false), scene};
-                 const std::optional<py::array> array =
-                     places.is_none() ? std::nullopt : std::optional(places.cast<py::array>());
-                 const std::span<const lsys::Tree> trees =
-                     array ? trees_of(*array) : std::span<const lsys::Tree>();
-                 return value_of(run(options_of(rest), [&](const lsys::Project& project) {
-                     return array ? lsys::forest_of_places(files, trees, options, project)
-                                  : lsys::grow_forest(files, options, project);
-                 }));
-             }),
-             "files"_a, "places"_a, "scene"_a, "defines"_a, "settings"_a, "generations"_a)
         .def_property_readonly("key", &lsys::Forest::key)
         .def_property_readonly("species", &lsys::Forest::species)
         .def_property_readonly("trees",
@@ -164,6 +148,26 @@ void bind_forest(py::module_& module) {
                 }));
             },
             "name"_a, "receive"_a, "options"_a);
+    // No py::init(): pybind11 2.10 registers an object of a constructor where no exception may
+    // leave, so that a lack of memory would end the process.
+    module.def(
+        "_grow_forest",
+        [](const std::vector<std::string>& files, const py::object& places,
+           const lsys::Options& scene, const std::map<std::string, float>& defines,
+           const py::dict& settings, std::optional<std::uint32_t> generations,
+           const py::kwargs& rest) {
+            const lsys::ForestOptions options{
+                grammar_options(defines, settings, generations, "", "", false), scene};
+            const std::optional<py::array> array =
+                places.is_none() ? std::nullopt : std::optional(places.cast<py::array>());
+            const std::span<const lsys::Tree> trees =
+                array ? trees_of(*array) : std::span<const lsys::Tree>();
+            return value_of(run(options_of(rest), [&](const lsys::Project& project) {
+                return array ? lsys::forest_of_places(files, trees, options, project)
+                             : lsys::grow_forest(files, options, project);
+            }));
+        },
+        "files"_a, "places"_a, "scene"_a, "defines"_a, "settings"_a, "generations"_a);
 }
 
 } // namespace lsys_python

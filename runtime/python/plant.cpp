@@ -61,6 +61,23 @@ py::dict material_of(const lsys::Material& material) {
                     "cut_out"_a = material.cut_out);
 }
 
+lsys::ExportOptions
+export_options(const std::string& name, const std::string& compress, const std::string& up) {
+    lsys::ExportOptions options;
+    options.name = name;
+    if (compress != "none" && compress != "quantize" && compress != "meshopt") {
+        throw py::value_error("compress is one of none, quantize, meshopt");
+    }
+    options.compression = compress == "none"       ? lsys::Compression::None
+                          : compress == "quantize" ? lsys::Compression::Quantize
+                                                   : lsys::Compression::Meshopt;
+    if (up != "y" && up != "z") {
+        throw py::value_error("up is y or z");
+    }
+    options.up = up == "z" ? lsys::UpAxis::Z : lsys::UpAxis::Y;
+    return options;
+}
+
 } // namespace
 
 void bind_plant(py::module_& module) {
@@ -149,18 +166,7 @@ void bind_plant(py::module_& module) {
             [](const lsys::Plant& plant, const lsys::Mesh& mesh, const std::string& format,
                const std::string& name, const std::string& compress, const std::string& up,
                const py::kwargs& rest) {
-                lsys::ExportOptions options;
-                options.name = name;
-                if (compress != "none" && compress != "quantize" && compress != "meshopt") {
-                    throw py::value_error("compress is one of none, quantize, meshopt");
-                }
-                options.compression = compress == "none"       ? lsys::Compression::None
-                                      : compress == "quantize" ? lsys::Compression::Quantize
-                                                               : lsys::Compression::Meshopt;
-                if (up != "y" && up != "z") {
-                    throw py::value_error("up is y or z");
-                }
-                options.up = up == "z" ? lsys::UpAxis::Z : lsys::UpAxis::Y;
+                const lsys::ExportOptions options = export_options(name, compress, up);
                 std::string bytes;
                 value_of(run(options_of(rest), [&](const lsys::Project& project) {
                     return lsys::export_plant(
@@ -175,6 +181,17 @@ void bind_plant(py::module_& module) {
             },
             "mesh"_a, "format"_a, "name"_a = "plant", "compress"_a = "none", "up"_a = "y");
     plant
+        .def(
+            "_save_mesh",
+            [](const lsys::Plant& self, const lsys::Mesh& mesh, const std::string& path,
+               const std::string& format, const std::string& name, const std::string& compress,
+               const std::string& up, const py::kwargs& rest) {
+                const lsys::ExportOptions options = export_options(name, compress, up);
+                return value_of(run(options_of(rest), [&](const lsys::Project& project) {
+                    return lsys::save_mesh(self, mesh, path, format, options, project);
+                }));
+            },
+            "mesh"_a, "path"_a, "format"_a, "name"_a = "plant", "compress"_a = "none", "up"_a = "y")
         .def(
             "_save",
             [](const lsys::Plant& self, const std::string& path, const lsys::Options& options,

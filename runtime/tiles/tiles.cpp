@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/tiles.h"
 
+#include "grammar/base/hash.h"
 #include "runtime/export/export.h"
 #include "runtime/export/tile_document.h"
 #include "runtime/forest/instance_meshes.h"
@@ -17,6 +18,7 @@
 #include "runtime/tiles/impl/model_files.h"
 #include "runtime/tiles/impl/subtree.h"
 #include "runtime/tiles/impl/tile_boxes.h"
+#include "runtime/tiles/impl/tile_digest.h"
 #include "runtime/tiles/impl/tile_ground.h"
 #include "runtime/tiles/impl/tileset.h"
 #include "runtime/tiles/impl/tree_source.h"
@@ -82,6 +84,8 @@ struct TileForest::State {
     std::map<std::uint32_t, MeshOrder> ground_orders; // by number of cells along a side
     std::string ground_picture;                       // its path relative to a tile; empty: none
     glm::dvec3 ground_colour = kGroundColour;
+    std::uint64_t parts_digest = 0; // hash of the documents of `parts`
+    std::uint64_t trees_digest = 0; // placement_digest() of runtime/pipeline/forest.h
 
     [[nodiscard]] Outcome<void> place_trees(const Project& project);
     [[nodiscard]] Outcome<void> read_trees(const Project& project);
@@ -399,6 +403,7 @@ Outcome<void> TileForest::State::make_models(const Project& project) {
     for (const std::vector<MeshDocument>& details : made.models) {
         std::vector<std::optional<std::size_t>>& numbers = part_numbers.emplace_back();
         for (const MeshDocument& model : details) {
+            parts_digest = combine_bytes(parts_digest, model.json.dump());
             numbers.push_back(model.json.is_null() ? std::nullopt
                                                    : std::optional(parts->add(model)));
         }
@@ -601,6 +606,39 @@ std::string TileForest::subtree(const TileId& root) const {
     return make_subtree({state_->options.generator, levels(), state_->grid, *state_->boxes}, root);
 }
 
+std::uint64_t TileForest::digest() const {
+    const State& made = *state_;
+    std::uint64_t state = combine_numbers(0, made.trees_digest, made.parts_digest);
+    state = combine_bytes(state, tileset({0, 0, 0})); // the program, the root and its frame
+    for (std::uint32_t level = 0; level < levels().size(); ++level) {
+        state = combine_numbers(state, extent(level).columns, extent(level).rows);
+    }
+    state = combine_ground(combine_plan(state, made.plan), made.grown.ground);
+    state = combine_numbers(state, made.ground_colour.x, made.ground_colour.y, made.ground_colour.z,
+                            made.has_branches);
+    if (const std::optional<GeoPlace>& origin = made.options.origin) {
+        state = combine_numbers(state, origin->longitude, origin->latitude, origin->height);
+    }
+    for (const Hero& hero : made.heroes) {
+        state = combine_hero(state, hero);
+    }
+    for (const ForestSpecies& species : made.grown.forest.species) {
+        state = combine_bytes(state, species.name);
+        for (const ForestStage& stage : species.stages) {
+            state = combine_assembly(combine_numbers(state, stage.generations), stage.cache);
+        }
+    }
+    for (const std::vector<HeightTable>& tables : made.height_tables) {
+        for (const HeightTable& table : tables) {
+            state = combine_heights(state, table);
+        }
+    }
+    for (const TileFile& file : made.files) {
+        state = combine_bytes(combine_bytes(state, file.path), file.bytes);
+    }
+    return finish(state);
+}
+
 bool is_placed_by_tile(const Scene& scene) {
     return is_tileable(scene.placement.method) && scene.painting.empty();
 }
@@ -648,6 +686,7 @@ make_tile_forest(LoadedScene loaded, const TileOptions& options, const Project& 
     made.order_ground();
     made.make_canopies();
     made.options.tree_file.reset();
+    made.trees_digest = placement_digest(made.scene, project, made.grown, *made.sizer);
     return step.done(TileForest(std::move(state)));
 }
 

@@ -137,6 +137,10 @@ public:
     [[nodiscard]] static std::string tileset_path(const TileId& root);
     /// The path of a subtree file, such as "5/9/17.subtree".
     [[nodiscard]] static std::string subtree_path(const TileId& root);
+    /// A hash of all that the bytes of the files depend on, with the version of the program. It
+    /// does not depend on paths, threads and layout of the sources. Time is linear in the bytes of
+    /// files().
+    [[nodiscard]] std::uint64_t digest() const;
 
 private:
     friend Outcome<TileForest>

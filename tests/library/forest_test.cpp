@@ -99,6 +99,58 @@ TEST_CASE("a plant is saved with the files beside it") {
     }
 }
 
+TEST_CASE("no file of a forest replaces an input") {
+    const Folder folder;
+    const auto write = [&](const char* name, const std::string& text) {
+        std::ofstream(folder / name, std::ios::binary) << text;
+    };
+    write("leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("part.glb", "#set angle 25;"); // a grammar with the name of an output
+    write("tree.lsys", "#include \"part.glb\";\n#object L \"leaf.obj\";\n"
+                       "#n = 1; #w : !(0.1) F L;");
+    write("wood.toml", "[placement]\ncount = 3\n[[species]]\ngrammar = \"tree.lsys\"\n");
+    const std::string leaf = file_text(folder / "leaf.obj");
+    const auto forest = lsys::grow_forest({folder / "wood.toml"});
+    REQUIRE(forest);
+    const auto refusal = [&](const char* name, const lsys::Options& options) {
+        const auto saved = lsys::save_forest(*forest, folder / name, options);
+        CHECK_FALSE(saved);
+        return saved.messages().text();
+    };
+    CHECK(refusal("leaf.obj", {{"bake", ""}}).find("it is an input") != std::string::npos);
+    CHECK(refusal("part.glb", {}).find("it is an input") != std::string::npos);
+    CHECK(file_text(folder / "leaf.obj") == leaf);
+    CHECK(file_text(folder / "part.glb") == "#set angle 25;");
+    CHECK(lsys::save_forest(*forest, folder / "wood.glb"));
+}
+
+TEST_CASE("a mesh is saved unchanged, and replaces no input") {
+    const Folder folder;
+    std::ofstream(folder / "leaf.obj", std::ios::binary) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::ofstream(folder / "tree.lsys", std::ios::binary)
+        << "#object L \"leaf.obj\";\n#n = 1; #w : !(0.1) F L;";
+    const auto grammar = lsys::compile_file(folder / "tree.lsys");
+    REQUIRE(grammar);
+    const auto plant = lsys::grow(*grammar);
+    REQUIRE(plant);
+    const auto mesh = lsys::make_mesh(*plant);
+    REQUIRE(mesh);
+    const auto saved = lsys::save_mesh(*plant, *mesh, folder / "tree.obj", "obj");
+    REQUIRE(saved);
+    CHECK(*saved == std::vector<std::string>{folder / "tree.obj"});
+    std::string bytes;
+    REQUIRE(lsys::export_plant(*plant, *mesh, "obj", [&](std::string_view piece) {
+        bytes += piece;
+        return true;
+    }));
+    CHECK(file_text(folder / "tree.obj") == bytes);
+    const auto refused = lsys::save_mesh(*plant, *mesh, folder / "leaf.obj", "obj");
+    CHECK_FALSE(refused);
+    CHECK(refused.messages().text().find("it is an input") != std::string::npos);
+    CHECK(file_text(folder / "leaf.obj").starts_with("v 0 0 0\n"));
+    CHECK_FALSE(lsys::save_mesh(*plant, *mesh, folder / "a.doc", "doc"));
+}
+
 TEST_CASE("a receiver gets the same files as a folder") {
     const Folder folder;
     const lsys::Options options{{"preset", "unreal"}, {"lods", "3"}};

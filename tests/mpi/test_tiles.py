@@ -20,6 +20,7 @@ TREE = """#n = 3; #set angle 25; #w : !(0.2) F(2) X;
 #p : X : * : !(0.08) F({0.5, 0.8}) [ + X ] /(120) [ & X ];
 """
 TEMPORARY = re.compile(r"\.lsys-[a-z0-9]+\.tmp$")  # names of unfinished files
+RECORD = "tileset.digest"
 # Seconds after which a job counts as hanging.
 PATIENCE = 120
 
@@ -38,14 +39,16 @@ def environment():
 
 
 def files_of(folder):
-    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    """The files of a tileset, without the record of its scene, which is not counted."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*")
+            if path.is_file() and path.name != RECORD}
 
 
 def stamps_of(folder):
     """Inode and time of each complete file, which tell whether it was written again."""
     stamps = {}
     for path in folder.rglob("*"):
-        if path.is_file() and not TEMPORARY.search(path.name):
+        if path.is_file() and path.name != RECORD and not TEMPORARY.search(path.name):
             facts = path.stat()
             stamps[str(path.relative_to(folder))] = (facts.st_ino, facts.st_mtime_ns)
     return stamps

@@ -110,13 +110,30 @@ class Equality(unittest.TestCase):
                 file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
             path = os.path.join(folder, "a.lsys")
             with open(path, "w") as file:
-                file.write('#object L "m.obj";\n#n = 1;\n#w : F L;\n')
+                file.write('#include "b.lsys";\n#object L "m.obj";\n#n = 1;\n#w : F L;\n')
+            with open(os.path.join(folder, "b.lsys"), "w") as file:
+                file.write("#set angle 25;\n")
             plant = lsys.compile(path).grow()
-            for name in ("m.obj", "a.lsys"):
-                with self.assertRaisesRegex(lsys.LsysError, "it is an input of this command"):
-                    plant.save(os.path.join(folder, name), format="obj")
-            with open(mesh) as file:
-                self.assertEqual(file.readline(), "v 0 0 0\n")
+            forest = lsys.Forest(path, count=3)
+            before = {name: self.bytes_of(folder, name) for name in os.listdir(folder)}
+            for name in ("m.obj", "a.lsys", "b.lsys"):
+                output = os.path.join(folder, name)
+                for save in (lambda to: plant.save(to, format="obj"),
+                             lambda to: plant.save(to, format="obj", mesh=plant.mesh())):
+                    with self.assertRaisesRegex(lsys.LsysError, "it is an input of this command"):
+                        save(output)
+            with self.assertRaisesRegex(lsys.LsysError, "it is an input of this command"):
+                forest.save(mesh, bake=True)
+            self.assertEqual(before, {name: self.bytes_of(folder, name) for name in os.listdir(folder)})
+            other = os.path.join(folder, "other.obj")
+            self.assertEqual(plant.save(other, mesh=plant.mesh()), [other])
+            self.assertEqual(self.bytes_of(folder, "other.obj"),
+                             plant.export(plant.mesh(), "obj", name="other"))
+
+    @staticmethod
+    def bytes_of(folder, name):
+        with open(os.path.join(folder, name), "rb") as file:
+            return file.read()
 
 
 class Views(unittest.TestCase):

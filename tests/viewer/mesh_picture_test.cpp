@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The picture of a mesh file is found, shown, exported, and watched for changes.
 #include "runtime/meshing/texture.h"
+#include "runtime/pipeline/recorded_host.h"
 #include "runtime/program/host.h"
 #include "tests/support/lsc_run.h"
 #include "tests/viewer/lsview_run.h"
 #include "tests/viewer/picture.h"
 #include "viewer/app/plant_document.h"
-#include "viewer/app/recorded_host.h"
 
 #include <catch2/catch.hpp>
 

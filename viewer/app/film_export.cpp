@@ -5,6 +5,7 @@
 #include "runtime/base/out_of_memory.h"
 #include "runtime/platform/child.h"
 #include "runtime/program/files.h"
+#include "runtime/program/run_files.h"
 #include "viewer/app/lsview.h"
 
 #include <fmt/format.h>
@@ -178,7 +179,10 @@ std::string export_film(const FilmExportRequest& request, const std::atomic<bool
     MessageOptions messages = request.options->messages;
     messages.verbose = false;
     messages.colour = ColourMode::Never;
-    const Console console({in, out, err, false, &cancelled, "lsview"}, messages);
+    RunFiles files;
+    Io io{in, out, err, false, &cancelled, "lsview"};
+    io.files = &files;
+    const Console console(io, messages);
     ExitStatus status = ExitStatus::Limit;
     const auto work = [&] {
         status = write_film(request, console, cancelled);

@@ -2,10 +2,10 @@
 #include "viewer/app/forest_loader.h"
 
 #include "runtime/base/out_of_memory.h"
+#include "runtime/pipeline/recorded_host.h"
 #include "runtime/pipeline/stopwatch.h"
 #include "runtime/program/host.h"
 #include "viewer/app/load_limit.h"
-#include "viewer/app/recorded_host.h"
 
 #include <utility>
 

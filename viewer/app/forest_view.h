@@ -225,10 +225,9 @@ private:
     std::unique_ptr<ForestStreamer> streamer_; // streamer of document_; null: it is not streamed
     bool is_streaming_ = false;                // the last picture lacked some wanted squares
     ForestPainting painting_;
-    std::vector<std::string> files_; // files that the last load has requested
-    bool frame_next_ = true;         // the next swap moves the camera to show the forest
-    bool plays_next_ = false;        // growth starts to play at the next swap
-    bool logs_next_frame_ = false;   // logs the times of the first picture of this forest
+    bool frame_next_ = true;       // the next swap moves the camera to show the forest
+    bool plays_next_ = false;      // growth starts to play at the next swap
+    bool logs_next_frame_ = false; // logs the times of the first picture of this forest
     bool has_all_impostors_ = true;
     BranchColours shown_colours_ = BranchColours::Natural;
     std::vector<LegendEntry> legend_;

@@ -5,6 +5,7 @@
 #include "runtime/output/file_option_parsers.h"
 #include "runtime/output/plant_files.h"
 #include "runtime/program/host.h"
+#include "runtime/program/run_files.h"
 #include "viewer/app/output_path.h"
 
 #include <fmt/format.h>
@@ -73,7 +74,11 @@ std::string export_plant(const ExportRequest& request, const std::atomic<bool>& 
     std::istringstream in;
     std::ostringstream out;
     std::ostringstream err;
-    const Console console({in, out, err, false, &cancelled, "lsview"}, request.options.messages);
+    RunFiles files;
+    note_read(&files, request.inputs);
+    Io io{in, out, err, false, &cancelled, "lsview"};
+    io.files = &files;
+    const Console console(io, request.options.messages);
     const Project project{make_file_host(&cancelled, request.options.run.files),
                           request.options.run.limits,
                           request.options.run.threads,

@@ -28,6 +28,7 @@ struct ExportRequest {
     std::shared_ptr<const PlantDocument> document;
     ViewOptions options; // options with which the document was made
     ExportSettings settings;
+    std::vector<std::string> inputs; // paths of the files of the document, which stay as they are
     // Fields for LatestRequestWorker.
     SteadyClock::time_point changed_at;
     bool is_repeat = false;

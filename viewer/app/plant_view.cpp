@@ -723,7 +723,7 @@ void PlantView::export_shown() {
     }
     exported_file_ = settings.output.file;
     exporter_->request(
-        {document_, shown_outcome_.options, settings.output, SteadyClock::now(), false});
+        {document_, shown_outcome_.options, settings.output, files_, SteadyClock::now(), false});
 }
 
 std::optional<MakingState> PlantView::making() const {

@@ -193,12 +193,11 @@ private:
     [[nodiscard]] Result<std::string> text_with_values(const StatementValues& values) const;
 
     std::shared_ptr<const PlantDocument> document_;
-    LoadOutcome shown_outcome_;      // of the request whose plant is shown
-    PlantSource saved_;              // values when the file was opened or last saved
-    std::vector<std::string> files_; // files that the last load has requested
-    bool frame_next_ = true;         // the next swap moves the camera to show the plant
-    bool is_new_file_ = true;        // at the next swap, take the damping of the grammar
-    bool logs_next_frame_ = false;   // logs the times of the first picture of this plant
+    LoadOutcome shown_outcome_;    // of the request whose plant is shown
+    PlantSource saved_;            // values when the file was opened or last saved
+    bool frame_next_ = true;       // the next swap moves the camera to show the plant
+    bool is_new_file_ = true;      // at the next swap, take the damping of the grammar
+    bool logs_next_frame_ = false; // logs the times of the first picture of this plant
     PlantViewStats stats_;
     Bounds rest_bounds_; // bounds of document_ at rest
 

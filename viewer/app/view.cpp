@@ -3,6 +3,7 @@
 
 #include "runtime/meshing/texture.h"
 #include "runtime/program/files.h"
+#include "runtime/program/run_files.h"
 #include "viewer/app/picture_series.h"
 #include "viewer/app/shader_folder.h"
 
@@ -258,8 +259,13 @@ void View::write_picture(const PictureSettings& settings) {
     FrameStats stats;
     double read_milliseconds = 0.0;
     const std::string bytes = encode_png(draw_picture(frame, *renderer_, stats, read_milliseconds));
-    const Result<void> written = bytes.empty() ? Error{"not enough memory for the picture"}
-                                               : write_file(settings.path(), bytes, console_);
+    RunFiles files;
+    note_read(&files, files_);
+    Io io = console_.io();
+    io.files = &files;
+    const Result<void> written =
+        bytes.empty() ? Error{"not enough memory for the picture"}
+                      : write_file(settings.path(), bytes, Console(io, console_.options()));
     set_note(written ? fmt::format("wrote {}", settings.path()) : written.error().message);
     changed_ = true;
 }

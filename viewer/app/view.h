@@ -190,6 +190,7 @@ protected:
     Renderer* renderer_;
     std::function<void()> wake_; // called on any thread when update() has work
     std::string shader_message_;
+    std::vector<std::string> files_; // files that the last load has requested
     // Last picture.
     std::optional<Frame> frame_;
     FrameStats drawn_;               // statistics of the last picture

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace lsys {
 
@@ -77,12 +78,14 @@ void check_growth(const CheckInput& input, Diagnostics& diagnostics) {
                 program.productions[static_cast<std::size_t>(limit->dominant)];
             diagnostic.labels.push_back({production.name_span, "makes the most modules"});
         }
+        // No limit is higher than the largest number of 64 bits.
+        const bool may_be_raised =
+            limit->at_next.modules.at_most(std::numeric_limits<std::uint64_t>::max());
         if (!axiom) {
             diagnostic.help.push_back(fmt::format(
-                "the largest number of generations that fits is {}; `--max-modules` raises "
-                "the limit",
-                limit->largest_fitting));
-        } else {
+                "the largest number of generations that fits is {}{}", limit->largest_fitting,
+                may_be_raised ? "; `--max-modules` raises the limit" : ""));
+        } else if (may_be_raised) {
             diagnostic.help.emplace_back("`--max-modules` raises the limit");
         }
         return;

@@ -194,14 +194,14 @@ CpfgView read_view(std::string_view text, const FileBeside& beside) {
             view.angle = angle->substr(0, literal_length(*angle));
         } else if (auto set = value_of(line, "function set:")) {
             if (const auto curves = beside(*set)) {
-                read_curves(*curves, view.curves);
+                read_curves(curves.value(), view.curves);
             }
         } else if (auto function = value_of(line, "function:")) {
             const std::size_t before = view.curves.size();
             const std::size_t end = std::min(function->find_first_of(" \t"), function->size());
             const std::string_view path = function->substr(0, end);
             if (const auto curve = beside(path)) {
-                read_curves(*curve, view.curves);
+                read_curves(curve.value(), view.curves);
             }
             // A missing file keeps its number, so that the numbers of later curves do not change.
             view.curves.resize(before + 1);

@@ -5,6 +5,8 @@
 // computes a table of its values at equal steps of x from 0 to 1 and interpolates between them.
 #pragma once
 
+#include "grammar/base/result.h"
+
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -32,8 +34,8 @@ struct CpfgView {
     std::vector<CpfgCurve> curves;
 };
 
-/// The text of a file beside the L-system, by its name; nullopt if it cannot be read.
-using FileBeside = std::function<std::optional<std::string>(std::string_view name)>;
+/// The text of a file beside the L-system, by its name. The Error is only the reason.
+using FileBeside = std::function<Result<std::string>(std::string_view name)>;
 
 /// Reads the angle and the curves of a view file and of the files that it names.
 [[nodiscard]] CpfgView read_view(std::string_view text, const FileBeside& beside);

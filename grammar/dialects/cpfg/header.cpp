@@ -145,14 +145,15 @@ void CpfgWriter::add_surface(const CpfgModule& module) {
 void CpfgWriter::write_organs() {
     for (const auto& [name, span] : surfaces_) {
         const auto found = organs_.surfaces.find(name);
-        const bool is_read = found != organs_.surfaces.end() && found->second.can_be_read;
+        const bool is_listed = found != organs_.surfaces.end();
+        const bool is_read = is_listed && !found->second.failure;
         if (!is_read) {
-            expressions_.warn_left_out(
-                span, "surface " + name,
-                "the surface `" + shown(name) + "` is drawn as a leaf: " +
-                    (found == organs_.surfaces.end()
-                         ? "no view file lists its file"
-                         : "`" + shown(found->second.file) + "` cannot be read"));
+            expressions_.warn_left_out(is_listed ? found->second.span : span, "surface " + name,
+                                       "the surface `" + shown(name) + "` is drawn as a leaf: " +
+                                           (is_listed
+                                                ? "cannot read `" + shown(found->second.file) +
+                                                      "`: " + *found->second.failure
+                                                : "no view file lists its file"));
         }
         if (is_letter(name)) {
             out_.put("#object " + name + " " + (is_read ? object_text(found->second) : "LEAF") +
@@ -166,16 +167,15 @@ void CpfgWriter::write_organs() {
     if (organs_.sides != 0) {
         out_.put("#set sides " + std::to_string(organs_.sides) + ";\n", header_);
     }
-    for (const auto& [number, points] : organs_.contours) {
-        if (!points.empty()) {
-            out_.put(contour_statement(number, points), header_);
+    for (const auto& [number, contour] : organs_.contours) {
+        if (!contour.points.empty()) {
+            out_.put(contour_statement(number, contour.points), header_);
             continue;
         }
         const std::string digits = std::to_string(number);
-        expressions_.warn_left_out(header_, "contour " + digits,
-                                   "contour " + digits + " is a circle: `" +
-                                       shown(organs_.contour_files.at(number)) +
-                                       "` cannot be read as a contour");
+        expressions_.warn_left_out(contour.span, "contour " + digits,
+                                   "contour " + digits + " is a circle: cannot read `" +
+                                       shown(contour.file) + "`: " + contour.failure);
     }
 }
 

@@ -236,7 +236,11 @@ std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t side
     return has_extent ? points : std::vector<CurvePoint>{};
 }
 
-CpfgOrgans read_organs(std::string_view view, const FileBeside& beside) {
+CpfgOrgans read_organs(FileId file, std::string_view view, const FileBeside& beside) {
+    const auto span_of = [file, text = view.data()](std::string_view name) {
+        const auto begin = static_cast<std::uint32_t>(name.data() - text);
+        return SourceSpan{file, begin, begin + static_cast<std::uint32_t>(name.size())};
+    };
     CpfgOrgans organs;
     while (!view.empty()) {
         std::string_view line = first_line(view);
@@ -247,29 +251,36 @@ CpfgOrgans read_organs(std::string_view view, const FileBeside& beside) {
             organs.sides = std::uint32_t{2} << first_count(line, 16.0).value_or(2);
         } else if (take(line, "contour:")) {
             const auto number = first_count(line, 1e6);
-            const std::string_view file = first_word(line);
-            if (number && !file.empty() && organs.contour_files.size() < kMaxFiles) {
-                organs.contour_files.emplace(*number, file);
+            const std::string_view name = first_word(line);
+            if (number && !name.empty() && organs.contours.size() < kMaxFiles) {
+                organs.contours.emplace(*number,
+                                        CpfgContour{std::string(name), span_of(name), {}, {}});
             }
         } else if (take(line, "surface:")) {
             const std::string_view letter = first_word(line);
             CpfgSurface surface;
-            surface.file = first_word(line);
+            const std::string_view name = first_word(line);
+            surface.file = name;
+            surface.span = span_of(name);
             surface.scale = first_number(line).value_or(1.0);
             surface.scale = surface.scale > 0.0 ? surface.scale : 1.0;
             read_steps_and_texture(line, surface);
             if (letter.size() == 1 && organs.surfaces.size() < kMaxFiles) {
-                surface.can_be_read = beside(surface.file).has_value();
+                if (const Result<std::string> text = beside(surface.file); !text) {
+                    surface.failure = text.error().message;
+                }
                 organs.surfaces.emplace(letter, std::move(surface));
             }
         }
     }
     organs.sides = organs.sides == 0 ? 0 : std::clamp(organs.sides, kMinSides, kMaxSides);
     const std::uint32_t sides = organs.sides == 0 ? kSides : organs.sides;
-    for (const auto& [number, name] : organs.contour_files) {
-        const std::optional<std::string> text = beside(name);
-        organs.contours.emplace(number,
-                                text ? contour_points(*text, sides) : std::vector<CurvePoint>{});
+    for (auto& [number, contour] : organs.contours) {
+        const Result<std::string> text = beside(contour.file);
+        contour.points = text ? contour_points(text.value(), sides) : std::vector<CurvePoint>{};
+        if (contour.points.empty()) {
+            contour.failure = text ? "it is no contour" : text.error().message;
+        }
     }
     return organs;
 }

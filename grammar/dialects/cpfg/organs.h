@@ -4,6 +4,7 @@
 // B-spline.
 #pragma once
 
+#include "grammar/base/source.h"
 #include "grammar/dialects/cpfg/curves.h"
 
 #include <cstdint>
@@ -18,25 +19,33 @@ namespace lsys {
 /// `surface: l leaf.s 0.5 4 6 2`: file, scale, steps of a patch, texture.
 struct CpfgSurface {
     std::string file;
+    SourceSpan span; // of the name of the file, in the view file
     double scale = 1.0;
     std::uint32_t row_steps = 0; // 0: the file states the steps
     std::uint32_t column_steps = 0;
     std::optional<std::uint32_t> texture; // 0: none; nullopt: that of the turtle
     bool is_whole = false;                // one picture for the whole surface, not for each patch
-    bool can_be_read = false;             // the file exists
+    std::optional<std::string> failure;   // why the file cannot be read
+};
+
+/// `contour: 2 leaf.con`.
+struct CpfgContour {
+    std::string file;
+    SourceSpan span; // of the name of the file, in the view file
+    /// Points around the turtle, relative to the width: x to the right, y up; closed if the last
+    /// equals the first. Empty for a file that cannot be read.
+    std::vector<CurvePoint> points;
+    std::string failure; // why there are no points
 };
 
 struct CpfgOrgans {
-    std::map<std::string, CpfgSurface> surfaces; // by the letter behind `~`
-    /// Points around the turtle, relative to the width: x to the right, y up; closed if the last
-    /// equals the first. Empty for a file that cannot be read.
-    std::map<std::uint32_t, std::vector<CurvePoint>> contours;
-    std::map<std::uint32_t, std::string> contour_files; // name of the file, by number
-    std::uint32_t sides = 0; // number of sides of a contour; 0: not given
+    std::map<std::string, CpfgSurface> surfaces;   // by the letter behind `~`
+    std::map<std::uint32_t, CpfgContour> contours; // by number
+    std::uint32_t sides = 0;                       // number of sides of a contour; 0: not given
 };
 
-/// Reads the surfaces and contours of a view file with the text `view`.
-[[nodiscard]] CpfgOrgans read_organs(std::string_view view, const FileBeside& beside);
+/// Reads the surfaces and contours of a view file. `file`: the file with the text `view`.
+[[nodiscard]] CpfgOrgans read_organs(FileId file, std::string_view view, const FileBeside& beside);
 
 /// The points of a contour file at `sides` equal distances along the contour, as cpfg places them;
 /// empty if the text is no contour.

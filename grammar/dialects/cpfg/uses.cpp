@@ -63,12 +63,13 @@ void CpfgWriter::read_view_file() {
     }
     const std::string folder(folder_of_path(path));
     CpfgFiles files = find_cpfg_files(path, context_);
-    const FileBeside beside = [&](std::string_view name) -> std::optional<std::string> {
-        Result<std::string> file = context_.load(folder + std::string(name));
-        return file ? std::optional(std::move(file).value()) : std::nullopt;
+    const FileBeside beside = [&](std::string_view name) {
+        return context_.load(folder + std::string(name));
     };
+    const FileId view =
+        files.has_view ? context_.sources.add(files.view_path, files.view) : kNoFile;
     view_ = read_view(files.view, beside);
-    organs_ = read_organs(files.view, beside);
+    organs_ = read_organs(view, files.view, beside);
     const CpfgUses commands = find_uses();
     CpfgUses uses = commands;
     for (const auto& [letter, span] : surfaces_) {
@@ -77,8 +78,6 @@ void CpfgWriter::read_view_file() {
             uses.textures.insert(*surface->second.texture);
         }
     }
-    const FileId view =
-        files.has_view ? context_.sources.add(files.view_path, files.view) : kNoFile;
     looks_ = read_looks(view, files.view, uses);
     find_whole_surfaces(commands);
     materials_ =

@@ -2,6 +2,8 @@
 // Joins glTF documents: adds items of one document to another and renumbers their references.
 #pragma once
 
+#include "runtime/export/take_apart.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -36,6 +38,7 @@ void renumber_mesh(GltfJson& mesh, std::size_t first_accessor, const GltfNumbers
 /// Returns the new numbers of all items.
 template <typename Adapt>
 GltfNumbers add_missing(GltfJson& document, const char* list, GltfJson items, const Adapt& adapt) {
+    const TakesApart taken(items);
     GltfNumbers numbers;
     for (GltfJson& item : items) {
         adapt(item);

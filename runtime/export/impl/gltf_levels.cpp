@@ -27,7 +27,12 @@ std::size_t aligned(std::size_t bytes) {
 
 /// A GLB file as its document and its buffer.
 struct GlbFile {
-    Json document = Json::object();
+    GlbFile(Json json, std::string bytes) : document(std::move(json)), data(std::move(bytes)) {}
+    ~GlbFile() { take_apart(document); }
+    GlbFile(GlbFile&&) = default;
+    GlbFile& operator=(GlbFile&&) = delete;
+
+    Json document;
     std::string data;
 };
 
@@ -46,7 +51,8 @@ GlbFile parse_glb(const std::string& bytes) {
 class JoinedFile {
 public:
     explicit JoinedFile(GlbFile first) : file_(std::move(first)) {
-        const Json buffers = take_list(file_.document, "buffers");
+        Json buffers = take_list(file_.document, "buffers");
+        const TakesApart taken(buffers);
         if (buffers.size() > 1) {
             decoded_bytes_ = buffers[1]["byteLength"].get<std::size_t>();
         }
@@ -55,7 +61,8 @@ public:
 
     /// Adds the nodes of a file, without its scene. Returns the number of its first node.
     std::size_t add(GlbFile file, std::size_t level) {
-        const Json views = take_list(file.document, "bufferViews");
+        Json views = take_list(file.document, "bufferViews");
+        const TakesApart taken_views(views);
         views_.clear();
         const auto take_view = [&](Json& holder) {
             if (holder.contains("bufferView")) {
@@ -71,22 +78,31 @@ public:
         const GltfNumbers materials =
             add_materials(take_list(file.document, "materials"), level, textures);
         const std::size_t accessors = count_of(file_.document, "accessors");
-        for (Json& accessor : take_list(file.document, "accessors")) {
+        Json new_accessors = take_list(file.document, "accessors");
+        const TakesApart taken_accessors(new_accessors);
+        for (Json& accessor : new_accessors) {
             take_view(accessor);
             file_.document["accessors"].push_back(std::move(accessor));
         }
         const std::size_t meshes = count_of(file_.document, "meshes");
-        for (Json& mesh : take_list(file.document, "meshes")) {
+        Json new_meshes = take_list(file.document, "meshes");
+        const TakesApart taken_meshes(new_meshes);
+        for (Json& mesh : new_meshes) {
             mesh["name"] = level_name(mesh["name"], level);
             renumber_mesh(mesh, accessors, materials);
             file_.document["meshes"].push_back(std::move(mesh));
         }
         const std::size_t nodes = count_of(file_.document, "nodes");
-        for (Json& node : take_list(file.document, "nodes")) {
+        Json new_nodes = take_list(file.document, "nodes");
+        const TakesApart taken_nodes(new_nodes);
+        for (Json& node : new_nodes) {
             if (node.contains("name")) {
                 node["name"] = level_name(node["name"], level);
             }
-            node.erase("extras"); // equal to the `extras` of level 0, which stay
+            if (node.contains("extras")) { // equal to the `extras` of level 0, which stay
+                take_apart(node["extras"]);
+                node.erase("extras");
+            }
             if (node.contains("mesh")) {
                 node["mesh"] = node["mesh"].get<std::size_t>() + meshes;
             }
@@ -98,7 +114,9 @@ public:
             file_.document["nodes"].push_back(std::move(node));
         }
         for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
-            for (const Json& name : take_list(file.document, list)) {
+            Json names = take_list(file.document, list);
+            const TakesApart taken_names(names);
+            for (const Json& name : names) {
                 use_extension(file_.document, list, name.get<std::string>());
             }
         }
@@ -129,6 +147,7 @@ private:
             views_.emplace(old.get<std::size_t>(), count_of(file_.document, "bufferViews"));
         if (is_new) {
             Json view = views[found->first];
+            const TakesApart taken(view);
             Json& stored = stored_part(view);
             if (&stored != &view) {
                 decoded_bytes_ = aligned(decoded_bytes_);
@@ -152,12 +171,14 @@ private:
             const std::string name = item["name"];
             const auto looks_same = [&](const Json& other) {
                 Json renamed = other;
+                const TakesApart taken(renamed);
                 renamed["name"] = name;
                 return renamed == item && other["name"].get<std::string>().starts_with(name);
             };
             const auto same_name = [&](const Json& other) { return other["name"] == name; };
             if (const auto found = std::find_if(existing.begin(), existing.end(), looks_same);
                 found != existing.end()) {
+                take_apart(item);
                 item = *found;
             } else if (std::any_of(existing.begin(), existing.end(), same_name)) {
                 item["name"] = level_name(item["name"], level);
@@ -167,6 +188,7 @@ private:
     }
 
     GltfNumbers add_images(Json images, const Json& views, const std::string& data) {
+        const TakesApart taken(images);
         GltfNumbers numbers;
         for (Json& image : images) {
             const std::string_view bytes =
@@ -212,6 +234,8 @@ Outcome<void> write_gltf_levels(const ExportJob& job, bool binary, PieceWriter& 
     info.collision = CollisionKind::None; // level 0 has the collision shapes
     Json ids = Json::array();
     Json coverages = Json::array();
+    const TakesApart taken_ids(ids);
+    const TakesApart taken_coverages(coverages);
     for (std::size_t i = 0; i < coarser.size(); ++i) {
         bytes.clear();
         written = export_mesh(coarser[i].mesh, job.skeleton, ExportFormat::Glb, info, append);

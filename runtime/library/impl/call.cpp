@@ -4,6 +4,7 @@
 #include "grammar/base/message_levels.h"
 #include "runtime/library/impl/answers.h"
 #include "runtime/library/impl/message_data.h"
+#include "runtime/pipeline/recorded_host.h"
 #include "runtime/program/host.h"
 #include "runtime/program/memory_size.h"
 
@@ -70,6 +71,7 @@ Call::Call(const Project& project, std::vector<std::string> named, const Policy&
             return guarded([&] { return read(path).found; }, false);
         };
     }
+    inner_.host = record_files(std::move(inner_.host), files_);
     if (project.host.progress) {
         inner_.host.progress =
             [this, report = project.host.progress](const DerivationProgress& progress) {

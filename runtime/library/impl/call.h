@@ -37,6 +37,8 @@ public:
         return deadline_ ? deadline_->stop() : cancel_flag_;
     }
     [[nodiscard]] const Policy& policy() const { return policy_; }
+    /// The paths of the files that the call has requested so far.
+    [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
     /// The bytes that the call may still write into files.
     [[nodiscard]] OutputBudget& output_budget() { return output_budget_; }
 
@@ -112,6 +114,7 @@ private:
     }
 
     ::lsys::Project inner_;
+    std::vector<std::string> files_; // that the call has requested
     /// Error if Project::allow or Project::deny has an unknown code of a diagnostic, or the host
     /// answers for an environment that the grammar lacks.
     std::optional<std::string> refusal_;

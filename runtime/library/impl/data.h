@@ -20,9 +20,10 @@ namespace lsys::v0 {
 
 struct Grammar::Data {
     std::string name;
-    std::string file;        // FilePolicy::named: the name, or "-" for a text of the caller
-    Policy policy;           // policy with which the grammar was read
-    ::lsys::Grammar grammar; // not folded; calls work on copies
+    std::string file;                // FilePolicy::named: the name, or "-" for a text of the caller
+    std::vector<std::string> inputs; // paths of the files that were read, which no export replaces
+    Policy policy;                   // policy with which the grammar was read
+    ::lsys::Grammar grammar;         // not folded; calls work on copies
     std::vector<Constant> constants;
 };
 
@@ -43,8 +44,9 @@ struct Word::Data {
 
 struct Plant::Data {
     ::lsys::Plant plant;
-    Grammar grammar;              // needed for bending and growth
-    ::lsys::PlantOptions options; // options with which the plant was grown
+    Grammar grammar;                 // needed for bending and growth
+    ::lsys::PlantOptions options;    // options with which the plant was grown
+    std::vector<std::string> inputs; // paths of the files that its growth has read
 };
 
 struct Mesh::Data {

@@ -21,6 +21,8 @@ struct ForestSource {
     SceneOverrides overrides;
     std::optional<std::vector<Tree>> placed_trees; // unset: the scene places its trees
     Policy policy{};                               // with which the files were read
+    std::vector<std::string>
+        inputs{}; // paths of the files that were read, which no export replaces
 };
 
 struct LoadedForest {

@@ -322,6 +322,21 @@ Diagnostic picture_diagnostic(const Error& error,
     return diagnostic;
 }
 
+/// The error that the file of an `#object` cannot be read, or that a limit of memory is reached.
+Diagnostic object_diagnostic(const Error& error,
+                             const std::string& mesh_file,
+                             const std::filesystem::path& folder,
+                             const Grammar& grammar) {
+    const bool is_limit = error.kind == ErrorKind::Limit;
+    const auto place = grammar.object_spans.find(mesh_file);
+    Diagnostic diagnostic = make_diagnostic(
+        is_limit ? DiagnosticCode::LimitReached : DiagnosticCode::ObjectFile,
+        place == grammar.object_spans.end() ? SourceSpan{} : place->second, error.message);
+    diagnostic.help.emplace_back(is_limit ? "raise the limit with `--max-memory`"
+                                          : relative_path_help("#object", folder, grammar));
+    return diagnostic;
+}
+
 /// Reads the pictures of `#material`. A missing picture is left out with a warning.
 std::optional<Stop> read_looks(const std::filesystem::path& folder,
                                const Grammar& grammar,
@@ -410,12 +425,20 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
             continue;
         }
         const std::string path = path_text(folder / path_of(path_of_object(symbol.mesh_file)));
+        const auto fail = [&](const Error& error) {
+            if (project.is_cancelled()) {
+                return step.end(Stop::Cancelled);
+            }
+            static_cast<void>(step.diagnose(
+                object_diagnostic(error, symbol.mesh_file, folder, grammar), grammar.sources));
+            return step.end(error.kind == ErrorKind::Limit ? Stop::Limit : Stop::Diagnosed);
+        };
         if (is_polygon_picture || is_picture(path)) {
             std::shared_ptr<const Texture>& picture = budget.pictures[path];
             if (picture == nullptr) {
                 Result<Texture> read = read_picture_file(path, budget.left, project);
                 if (!read) {
-                    return step.fail(read.error());
+                    return fail(read.error());
                 }
                 budget.take(read.value().texels.size());
                 picture = std::make_shared<const Texture>(std::move(read.value()));
@@ -430,13 +453,13 @@ Outcome<MeshFiles> read_mesh_files(const std::string& grammar_file,
         const Result<std::string> text =
             step.read_referenced(path, {~std::uint64_t{0}, budget.left});
         if (!text) {
-            return step.fail(text.error());
+            return fail(text.error());
         }
         Result<UserMesh> mesh =
             read_object_file(symbol.mesh_file, text.value(), budget.left - text.value().size());
         if (!mesh) {
-            return step.fail(Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message),
-                                   mesh.error().kind});
+            return fail(Error{fmt::format("cannot use `{}`: {}", path, mesh.error().message),
+                              mesh.error().kind});
         }
         PictureSearch search(path, text.value(), budget, mesh.value());
         search.read_pictures(project);

@@ -90,19 +90,6 @@ def options(of):
     return _lsys.options(of)
 
 
-def _write_atomically(path, data):
-    """Writes a file that appears when it is complete."""
-    unfinished = f"{path}.{os.getpid()}.part"
-    try:
-        with open(unfinished, "xb") as file:
-            file.write(data)
-        os.replace(unfinished, path)
-    except BaseException:
-        if os.path.exists(unfinished):
-            os.unlink(unfinished)
-        raise
-
-
 def _save(plant, path, *, mesh=None, preset=None, **options):
     """Writes the plant to a file and the files beside it. Returns the paths of all files.
 
@@ -110,7 +97,8 @@ def _save(plant, path, *, mesh=None, preset=None, **options):
 
     preset: "web", "unreal", "unity", "godot", "blender" or "print". options: the options of
     `lsc export` with underscores, as in `lods=6`, `wind=(8, 0, 0, 0.5)`, `wind_data=True`, and the
-    options of all calls. All files appear when they are complete, or none.
+    options of all calls. All files appear when they are complete, or none. None replaces a file
+    that the plant was made from.
     mesh: writes this mesh, unchanged, to one file; the options are then only format, compress, up.
     """
     path = os.fspath(path)
@@ -123,8 +111,7 @@ def _save(plant, path, *, mesh=None, preset=None, **options):
     if not kind:
         raise LsysError(f"`{path}` has no extension of a known format: {', '.join(FORMATS)}")
     stem = os.path.splitext(os.path.basename(path))[0]
-    _write_atomically(path, plant.export(mesh, kind, name=stem, **options))
-    return [path]
+    return plant._save_mesh(mesh, path, kind, name=stem, **options)
 
 
 def _save_forest(forest, path, *, preset=None, **options):
@@ -236,18 +223,15 @@ def _matrices(instances):
     return matrices.reshape(-1, 4, 4).transpose(0, 2, 1)
 
 
-_empty_forest = Forest.__new__
-_make_forest = Forest.__init__
-
-
 def _forest_new(cls, scene, *, defines=None, settings=None, generations=None, **options):
     """Makes the forest whole: no function could use one without a value."""
     files = [os.fspath(scene)] if isinstance(scene, (str, os.PathLike)) else [
         os.fspath(path) for path in scene]
     calls, named = _arguments.split(options)
-    forest = _empty_forest(cls)
-    _make_forest(forest, files, None, named, dict(defines or {}), dict(settings or {}),
-                 generations, **calls)
+    forest = _lsys._grow_forest(files, None, named, dict(defines or {}), dict(settings or {}),
+                                generations, **calls)
+    if cls is not Forest:
+        forest.__class__ = cls
     return forest
 
 
@@ -294,10 +278,8 @@ def _from_places(grammars, positions, *, rotation=0.0, scale=1.0, key=None, spec
     files = [os.fspath(grammars)] if isinstance(grammars, (str, os.PathLike)) else [
         os.fspath(path) for path in grammars]
     calls, named = _arguments.split(options)
-    forest = _empty_forest(Forest)
-    _make_forest(forest, files, places, named, dict(defines or {}), dict(settings or {}),
-                 generations, **calls)
-    return forest
+    return _lsys._grow_forest(files, places, named, dict(defines or {}), dict(settings or {}),
+                              generations, **calls)
 
 
 def _instances(forest):

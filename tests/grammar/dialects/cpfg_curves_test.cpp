@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +16,7 @@ namespace {
 
 CpfgCurve curve_of(std::string_view function_file) {
     const CpfgView view = read_view("function: f.func 5\n", [&](std::string_view) {
-        return std::optional<std::string>(function_file);
+        return Result<std::string>(std::string(function_file));
     });
     REQUIRE(view.curves.size() == 1);
     return view.curves[0];

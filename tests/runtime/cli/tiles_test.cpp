@@ -38,10 +38,13 @@ LscRun write_tiles(const ScratchFolder& folder,
     return run_lsc(arguments, "");
 }
 
+const char* const kRecord = "tileset.digest";
+
+/// The files of a tileset, without the record of its scene.
 std::map<std::string, std::string> files_of(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) {
+        if (entry.is_regular_file() && entry.path().filename() != kRecord) {
             files[entry.path().lexically_relative(folder).generic_string()] =
                 read_text(entry.path().string());
         }
@@ -125,6 +128,100 @@ TEST_CASE("tiles are resumed by --resume: the files that are missing, and no oth
     CHECK(resumed["1/0/0.glb"] == "kept");
     resumed["1/0/0.glb"] = whole.at("1/0/0.glb");
     CHECK(resumed == whole);
+}
+
+TEST_CASE("tiles of another scene are not resumed") {
+    const ScratchFolder folder;
+    const fs::path tiles = folder.path() / "tiles";
+    const std::string seen = folder / "seen.png";
+    write_text(folder / "tree.lsys", kTree);
+    fs::copy_file(fs::path(LSYS_SOURCE_DIR) / "samples/roots-in-soil/soil.png", seen);
+    const std::string textured = std::string("#material 0 picture \"seen.png\";") + kTree;
+    const auto write = [&](const char* grammar, const std::vector<std::string>& more) {
+        write_text(folder / "tree.lsys", grammar);
+        std::vector<std::string> arguments{"tiles",       folder / "tree.lsys",
+                                           "--placement", "jittered",
+                                           "--spacing",   "4",
+                                           "--size",      "60",
+                                           "--heroes",    "2",
+                                           "--triangles", "20000",
+                                           "-o",          tiles.string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_lsc(arguments, "");
+    };
+    REQUIRE(write(textured.c_str(), {}).status == 0);
+    const auto whole = files_of(tiles);
+    const std::string record = read_text((tiles / kRecord).string());
+    CHECK(record.starts_with("lsc tiles "));
+    fs::remove(tiles / "tileset.json");
+    const auto before = files_of(tiles);
+
+    const auto refused = [&](const char* grammar, const std::vector<std::string>& more) {
+        std::vector<std::string> resumed{"--resume"};
+        resumed.insert(resumed.end(), more.begin(), more.end());
+        const LscRun run = write(grammar, resumed);
+        CHECK(run.status == 2);
+        CHECK(files_of(tiles) == before);
+        CHECK(read_text((tiles / kRecord).string()) == record);
+        return run.err;
+    };
+    const std::string other =
+        "lsc: error: `" + tiles.string() +
+        "` has tiles of another scene, of other options or of another version "
+        "of lsc: `tileset.digest` has another digest; write into another "
+        "folder, or replace the files by --force without --resume\n";
+    CHECK(refused(textured.c_str(), {"--seed", "7"}) == other);
+    CHECK(refused(textured.c_str(), {"--heroes", "3"}) == other);
+    CHECK(refused(textured.c_str(), {"--spacing", "5"}) == other);
+    CHECK(refused(textured.c_str(), {"--error", "0.5"}) == other);
+    CHECK(refused(textured.c_str(), {"--sides", "5"}) == other);
+    CHECK(refused(textured.c_str(), {"-n", "2"}) == other);
+    CHECK(refused(textured.c_str(), {"--implicit"}) == other);
+    CHECK(refused(textured.c_str(), {"--origin", "9,47"}) == other);
+    CHECK(refused(textured.c_str(), {"--origin", "9,47,0.0001"}) == other);
+    CHECK(refused(textured.c_str(), {"--instances", "branches"}) == other);
+    CHECK(refused(textured.c_str(), {"--force", "--seed", "7"}) == other);
+    CHECK(refused(kTree, {}) == other); // another grammar
+    const std::string picture = read_text(seen);
+    fs::copy_file(fs::path(LSYS_SOURCE_DIR) / "samples/roots-in-soil/roots-in-soil.png", seen,
+                  fs::copy_options::overwrite_existing);
+    CHECK(refused(textured.c_str(), {}) == other); // another picture
+    // A part of another scene without --resume would mix the files, too.
+    const LscRun part = write(textured.c_str(), {"--part", "1/2"});
+    CHECK(part.status == 2);
+    CHECK(part.err == other);
+    CHECK(files_of(tiles) == before);
+
+    // Another place, other threads and other comments give the same tiles.
+    write_text(seen, picture);
+    const std::string commented = "// a tree\n" + textured;
+    REQUIRE(write(commented.c_str(), {"--resume", "--threads", "1"}).status == 0);
+    CHECK(files_of(tiles) == whole);
+}
+
+TEST_CASE("tiles of an unknown scene are not resumed, and replaced by --force") {
+    const ScratchFolder folder;
+    REQUIRE(write_tiles(folder, "tiles", {"--seed", "5"}).status == 0);
+    REQUIRE(write_tiles(folder, "other").status == 0);
+    const fs::path tiles = folder.path() / "tiles";
+    fs::remove(tiles / kRecord); // as an earlier version left it
+    const auto before = files_of(tiles);
+    const LscRun run = write_tiles(folder, "tiles", {"--resume"});
+    CHECK(run.status == 2);
+    CHECK(run.err.starts_with("lsc: error: `" + tiles.string() +
+                              "` has tiles without `tileset.digest`"));
+    CHECK(run.err.ends_with("; write into another folder, or replace the files by --force without "
+                            "--resume\n"));
+    CHECK(files_of(tiles) == before);
+    // A part that replaces files leaves the other files, so the folder gets no record.
+    REQUIRE(write_tiles(folder, "tiles", {"--force", "--part", "1/2"}).status == 0);
+    CHECK_FALSE(fs::exists(tiles / kRecord));
+    REQUIRE(write_tiles(folder, "tiles", {"--force"}).status == 0);
+    CHECK(files_of(tiles) == files_of(folder.path() / "other"));
+    CHECK(read_text((tiles / kRecord).string()) == read_text(folder / "other/tileset.digest"));
+    // A record that is damaged fits no scene.
+    write_text((tiles / kRecord).string(), "lsc");
+    CHECK(write_tiles(folder, "tiles", {"--resume"}).status == 2);
 }
 
 TEST_CASE("implicit tiling has subtree files instead of tilesets, and the same contents") {

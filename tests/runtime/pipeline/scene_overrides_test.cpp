@@ -179,6 +179,13 @@ TEST_CASE("another method of placement gets values for about as many trees") {
     CHECK_FALSE(overrides.count);
     choose_method(overrides, PlacementMethod::Domination, scene);
     CHECK(overrides.years == 50U);
+    CHECK_FALSE(overrides.density); // domination does not read it
+    overrides.count = 20;
+    choose_method(overrides, PlacementMethod::Jittered, scene);
+    CHECK_FALSE(overrides.count);
+    CHECK(overrides.spacing.has_value());
+    choose_method(overrides, PlacementMethod::Uniform, scene);
+    CHECK_FALSE(overrides.spacing);
 }
 
 } // namespace lsys

@@ -215,6 +215,22 @@ TEST_CASE("the picture dialog writes a picture of another size, and films") {
     CHECK(picture.texels[3] == 0);
     CHECK(switcher.current().draw(64, 48)); // the window's picture is drawn again
 
+    const std::string bark = read_text(folder / "plant-1.png");
+    write_text(folder / "bark.png", bark);
+    const auto show = [&](const std::string& grammar) {
+        write_text(folder / "plant.lsys", grammar);
+        const std::uint64_t before = switcher.current().taken_request_count();
+        switcher.current().reload();
+        return until([&] { return switcher.current().taken_request_count() > before; });
+    };
+    REQUIRE(show(std::string("#material 0 picture \"bark.png\";") + kGrowing));
+    press({Key::P, false, false, false});
+    panels.picture.name = "bark";
+    press({Key::Enter, false, false, false});
+    CHECK(switcher.current().note().find("it is an input") != std::string::npos);
+    CHECK(read_text(folder / "bark.png") == bark);
+    REQUIRE(show(kGrowing));
+
     press({Key::P, false, false, false});
     CHECK(panels.picture.name == "plant-2");
     panels.picture.is_film = true;

@@ -694,6 +694,21 @@ TEST_CASE("the plant shown is exported with its values, or the reason is reporte
     CHECK_FALSE(std::filesystem::exists(scratch / "plant.stl"));
 }
 
+TEST_CASE("an export of the window does not replace a file that the grammar names") {
+    const ScratchFolder folder;
+    const std::string leaf = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    write_text(folder / "leaf.obj", leaf);
+    write_text(folder / "plant.lsys", "#object L \"leaf.obj\";\n#n = 1;\n#w : !(0.1) F L;\n");
+    ViewedPlant viewed(plant_options(folder / "plant.lsys"));
+    REQUIRE(viewed.until_swaps(1));
+    viewed.view.settings.output.file = folder / "leaf.obj";
+    viewed.view.export_shown();
+    REQUIRE(viewed.until([&] { return !viewed.view.note().empty(); }));
+    CHECK(viewed.view.note().find("it is an input") != std::string::npos);
+    CHECK(read_text(folder / "leaf.obj") == leaf);
+    CHECK_FALSE(std::filesystem::exists(folder / "leaf.mtl"));
+}
+
 TEST_CASE("undo takes back fixes of the file in turn with settings") {
     const ScratchFolder folder;
     const std::string file = folder / "plant.lsys";

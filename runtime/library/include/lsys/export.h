@@ -74,11 +74,23 @@ struct FilePiece {
 /// with Status::Cancelled. An exception ends the call, which rethrows it.
 using FileReceiver = std::function<bool(const FilePiece& piece)>;
 
+/// Writes `mesh`, a mesh of `plant`, unchanged, to one file, which appears when it is complete.
+/// `format`: one of export_formats(). Like save_plant(), it replaces no file that the plant was made
+/// from. Returns the path.
+[[nodiscard]] LSYS_API Outcome<std::vector<std::string>>
+save_mesh(const Plant& plant,
+          const Mesh& mesh,
+          const std::string& path,
+          std::string_view format,
+          const ExportOptions& options = {},
+          const Project& project = {});
+
 /// Names of the presets, such as "web" and "unreal".
 [[nodiscard]] LSYS_API const std::vector<std::string>& preset_names();
 
 /// Writes `path`, whose extension sets the format, and the files beside it: pictures, materials,
-/// buffers, levels, frames. All appear when they are complete, or none. Returns their paths.
+/// buffers, levels, frames. All appear when they are complete, or none. None replaces a file that
+/// the plant was made from: an error. Returns their paths.
 /// Options: the options of `lsc export` for form, mesh, levels of detail, bending, motion and
 /// growth (from `format` to `fps` in its help), and `height`, which grows the plant again.
 [[nodiscard]] LSYS_API Outcome<std::vector<std::string>> save_plant(const Plant& plant,

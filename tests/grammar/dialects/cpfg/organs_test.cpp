@@ -12,8 +12,8 @@ using namespace lsys;
 
 namespace {
 
-std::optional<std::string> no_file(std::string_view /*name*/) {
-    return std::nullopt;
+Result<std::string> no_file(std::string_view /*name*/) {
+    return Error{"no such file"};
 }
 
 } // namespace
@@ -61,27 +61,34 @@ TEST_CASE("a contour has at most 64 points") {
 }
 
 TEST_CASE("surfaces and contours are listed in the view file") {
-    const CpfgOrgans organs = read_organs("contour sides: 12\ncontour: 2 leaf.con\n"
+    const CpfgOrgans organs = read_organs(FileId{3},
+                                          "contour sides: 12\ncontour: 2 leaf.con\n"
                                           "surface: l leaf.s 0.25 5 5\r\nsurface: m other.s\n"
                                           "surface: long other.s 1\n",
                                           no_file);
     CHECK(organs.sides == 12);
     REQUIRE(organs.contours.count(2) == 1);
-    CHECK(organs.contours.at(2).empty());
+    CHECK(organs.contours.at(2).points.empty());
     REQUIRE(organs.surfaces.size() == 2);
     CHECK(object_text(organs.surfaces.at("l")) == "\"leaf.s#0.25 steps 5 5\"");
     CHECK(object_text(organs.surfaces.at("m")) == "\"other.s\"");
-    CHECK_FALSE(organs.surfaces.at("l").can_be_read);
-    CHECK(read_organs("contour sides: 1\n", no_file).sides == 3);
-    CHECK(read_organs("polygonization level: 0\n", no_file).sides == 3);
-    CHECK(read_organs("polygonization level: 3\n", no_file).sides == 16);
-    CHECK(read_organs("contour sides: 1000\n", no_file).sides == 63);
-    CHECK(read_organs("projection: parallel\n", no_file).sides == 0);
+    CHECK(organs.surfaces.at("l").failure == "no such file");
+    CHECK(organs.surfaces.at("l").span.file == FileId{3});
+    CHECK(organs.surfaces.at("l").span.begin == 49);
+    CHECK(organs.contours.at(2).span.begin == 29);
+    CHECK(organs.contours.at(2).span.end == 37);
+    CHECK(organs.contours.at(2).failure == "no such file");
+    CHECK(read_organs(FileId{3}, "contour sides: 1\n", no_file).sides == 3);
+    CHECK(read_organs(FileId{3}, "polygonization level: 0\n", no_file).sides == 3);
+    CHECK(read_organs(FileId{3}, "polygonization level: 3\n", no_file).sides == 16);
+    CHECK(read_organs(FileId{3}, "contour sides: 1000\n", no_file).sides == 63);
+    CHECK(read_organs(FileId{3}, "projection: parallel\n", no_file).sides == 0);
 }
 
 TEST_CASE("the numbers behind the scale of a surface are steps and a texture") {
     const CpfgOrgans organs =
-        read_organs("surface: a l.s 2 3\nsurface: b l.s 1 4 6 0\nsurface: c l.s 1 0 0 -1\n"
+        read_organs(FileId{3},
+                    "surface: a l.s 2 3\nsurface: b l.s 1 4 6 0\nsurface: c l.s 1 0 0 -1\n"
                     "surface: d l.s 1 40 -2 300\nsurface: e l.s 1 0 5\n",
                     no_file);
     CHECK(object_text(organs.surfaces.at("a")) == "\"l.s#2 texture 3\"");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/app/recorded_host.h"
+#include "runtime/pipeline/recorded_host.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace lsys::view {
+namespace lsys {
 
 Host record_files(Host host, std::vector<std::string>& files) {
     const auto add = [&files](const std::string& path) {
@@ -27,4 +27,4 @@ Host record_files(Host host, std::vector<std::string>& files) {
     return host;
 }
 
-} // namespace lsys::view
+} // namespace lsys

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A Host that records which files are requested from it, so that they can be watched.
+// A Host that records which files are requested from it: `lsview` watches them, and no export may
+// replace them.
 #pragma once
 
 #include "runtime/pipeline/project.h"
@@ -7,10 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace lsys::view {
+namespace lsys {
 
 /// Wraps `host`: adds the path of each requested file to `files`, readable or not. `files` must
 /// outlive the result.
 [[nodiscard]] Host record_files(Host host, std::vector<std::string>& files);
 
-} // namespace lsys::view
+} // namespace lsys
