@@ -487,11 +487,12 @@ TEST_CASE("the path of a mesh file of #object is relative to its grammar") {
     write_text(folder / "plant.lsys", "#n = 1; #object L \"leaf.obj\"; #w : F(1) L(2) L;");
     const std::string out = folder / "plant.ply";
     const LscRun missing = run_lsc({"export", folder / "plant.lsys", "-o", out}, "");
-    CHECK(missing.status == 2);
+    CHECK(missing.status == 1);
+    CHECK(missing.err.find("plant.lsys:1:19: error: ") != std::string::npos);
     CHECK(missing.err.find("leaf.obj") != std::string::npos);
     write_text(folder / "leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 3 0\nf 1 2 4\n");
     const LscRun wrong = run_lsc({"export", folder / "plant.lsys", "-o", out}, "");
-    CHECK(wrong.status == 2);
+    CHECK(wrong.status == 1);
     CHECK(wrong.err.find("line 4") != std::string::npos);
     write_text(folder / "leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 3 0\nf 1 2 3\n");
     REQUIRE(run_lsc({"export", folder / "plant.lsys", "-o", out}, "").status == 0);
