@@ -384,7 +384,8 @@ private:
     Sway sway_;
     GroundHorizon* ground_ = nullptr; // the occluder, during select()
     std::vector<VisibleCell> visible_cells_;
-    std::vector<std::uint32_t> mesh_counts_; // visible branches by form, group (see kGroups) and instance
+    std::vector<std::uint32_t>
+        mesh_counts_; // visible branches by form, group (see kGroups) and instance
     // The members below are used in streamed forests only.
     glm::dvec3 origin_{};
     std::vector<ShownSquare> squares_;
