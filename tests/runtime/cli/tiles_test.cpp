@@ -141,7 +141,8 @@ TEST_CASE("tiles of another scene are not resumed") {
     const std::string textured = std::string("#material 0 picture \"seen.png\";") + kTree;
     const auto write = [&](const char* grammar, const std::vector<std::string>& more) {
         write_text(folder / "tree.lsys", grammar);
-        std::vector<std::string> arguments{"tiles", folder / "tree.lsys", "-o", tiles.string()};
+        std::vector<std::string> arguments{"tiles", folder / "tree.lsys", "-q", "-o",
+                                           tiles.string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const std::vector<std::pair<std::string, std::string>> usual{{"--placement", "jittered"},
                                                                      {"--spacing", "4"},
