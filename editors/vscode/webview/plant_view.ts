@@ -2,7 +2,8 @@
 // PlantView: shows the GLB of `lsys/plant` by three.js. Does not depend on VS Code.
 //
 // The attribute `_ITEMS` of the GLB has two numbers per vertex: indexes in `Plant.sources` of the
-// two parts of the plant that meet there. A triangle belongs to the source that all its corners share.
+// two parts of the plant that meet there. A triangle belongs to the source that all its corners
+// share.
 
 import {
   BufferAttribute,
