@@ -46,8 +46,8 @@ private:
         bool is_complete = true; // no key is unknown; an unknown one may be a misspelt required key
         std::vector<Entry> entries;
     };
-    /// Returns false after reporting a name that the turtle or another #sense has, or that is no
-    /// letter with `names letters`.
+    /// Returns false after reporting a name that the turtle or another #sense has, or, under `#set
+    /// names letters`, a name that is not one letter.
     [[nodiscard]] bool check_free_name(const SenseNode& node);
     [[nodiscard]] std::optional<EnvironmentKind> read_kind(const SenseNode& node);
     void report_unknown_kind(const SetValue& value, SourceSpan name);
