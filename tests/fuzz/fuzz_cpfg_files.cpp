@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -61,9 +60,9 @@ std::string curve_grammar(const lsys::CpfgView& view) {
 
 std::string contour_grammar(const lsys::CpfgOrgans& organs) {
     std::string statements;
-    for (const auto& [number, points] : organs.contours) {
-        if (!points.empty() && statements.size() < kMaxGrammarBytes) {
-            statements += lsys::contour_statement(number, points);
+    for (const auto& [number, contour] : organs.contours) {
+        if (!contour.points.empty() && statements.size() < kMaxGrammarBytes) {
+            statements += lsys::contour_statement(number, contour.points);
         }
     }
     return statements;
@@ -74,14 +73,15 @@ std::string contour_grammar(const lsys::CpfgOrgans& organs) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(data, data + size);
     const lsys::FileBeside beside = [&](std::string_view) {
-        return std::optional<std::string>(text);
+        return lsys::Result<std::string>(text);
     };
+    const lsys::CpfgOrgans organs = lsys::read_organs(lsys::kNoFile, text, beside);
     if (!compiles(curve_grammar(lsys::read_view(text, beside))) ||
-        !compiles(contour_grammar(lsys::read_organs(text, beside))) ||
+        !compiles(contour_grammar(organs)) ||
         !compiles(lsys::material_statements(text, all_uses(), lsys::kFirstCpfgColour))) {
         std::abort();
     }
-    for (const auto& [letter, surface] : lsys::read_organs(text, beside).surfaces) {
+    for (const auto& [letter, surface] : organs.surfaces) {
         // A name with a quotation mark or a line end is refused by the scanner.
         static_cast<void>(compiles("#object " + letter + " " + lsys::object_text(surface) + ";\n"));
     }
