@@ -16,7 +16,7 @@ namespace lsys::lsc {
 /// Name of the file in the folder of a tileset.
 inline constexpr std::string_view kTilesetRecord = "tileset.digest";
 
-/// What a folder has.
+/// Whether the folder of a tileset has tiles, and whether its record has a given digest.
 enum class TilesetRecord : std::uint8_t {
     NoTiles, // no tiles and no record
     Same,    // a record of this digest

@@ -10,7 +10,7 @@
 
 namespace lsys::reference {
 
-// The same arguments give the same case. `senses`: whether to make a plant that senses.
+// Makes a random case that depends on the arguments only. `senses`: the case has sense modules.
 Case make_case(std::uint64_t seed, std::uint32_t attempt, bool senses);
 
 } // namespace lsys::reference
