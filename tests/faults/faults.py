@@ -77,13 +77,15 @@ grammar = "tree.lsys"
 
 
 class Command:
-    """A command line of lsc and the files it needs. `is_set`: its files appear together, or none of them."""
+    """A command line of lsc and the files it needs. `is_set`: its files appear together, or none of them. `removed`: names
+    of files that a run removes first and writes last."""
 
-    def __init__(self, name, arguments, files, is_set=True):
+    def __init__(self, name, arguments, files, is_set=True, removed=()):
         self.name = name
         self.arguments = arguments
         self.files = files
         self.is_set = is_set
+        self.removed = removed
 
 
 def commands():
@@ -108,7 +110,8 @@ def commands():
         Command("forest", ["forest", "tree.lsys", "--count", "20", "-o", "forest.glb"], tree),
         Command("forest-usd", ["forest", "tree.lsys", "--count", "20", "-o", "forest.usda"], tree),
         Command("scene", ["forest", "scene.toml", "-o", "scene.glb"], scene),
-        Command("tiles", ["tiles", "scene.toml", "--count", "3", "--force", "-o", "tiles"], scene, is_set=False),
+        Command("tiles", ["tiles", "scene.toml", "--count", "3", "--force", "-o", "tiles"], scene, is_set=False,
+                removed=("tiles/tileset.digest",)),
         Command("frames",
                 ["export", "tree.lsys", "-n", "2", "-o", "tree.ply", "--frames", "2", "--wind", "5,0,0"], tree,
                 is_set=False),
@@ -238,7 +241,7 @@ def mistakes_after_fault(command, call, usual, before, outcome):
         if command.is_set and outcome.files not in (before, usual.files):
             wrong.append(f"exit status {outcome.status}, but files changed: {difference(before, outcome.files)}")
         if not command.is_set:
-            wrong += incomplete_files(usual, before, outcome)
+            wrong += incomplete_files(command, usual, before, outcome)
         if not outcome.err and call != "write":
             wrong.append(f"exit status {outcome.status} without a message")
         if call == "malloc" and outcome.status != 3 and NO_MEMORY not in outcome.err:
@@ -248,13 +251,14 @@ def mistakes_after_fault(command, call, usual, before, outcome):
     return wrong
 
 
-def incomplete_files(usual, before, outcome, may_remain=lambda name: False):
+def incomplete_files(command, usual, before, outcome, may_remain=lambda name: False):
     """What is wrong: files neither as before nor as usual; other files, except those for which may_remain() is true."""
     wrong = []
     for name in outcome.files.keys() | before.keys():
         content = outcome.files.get(name)
         if name in before or name in usual.files:
-            if content not in (before.get(name), usual.files.get(name)):
+            is_removed = content is None and name in command.removed
+            if not is_removed and content not in (before.get(name), usual.files.get(name)):
                 wrong.append(f"`{name}` is neither as before nor complete")
         elif not may_remain(name):
             wrong.append(f"`{name}` remains")
@@ -353,7 +357,7 @@ def main():
                         before, outcome, after = bench.kill(command, old, generator.uniform(0, length))
                         injected["kill"] += 1
                         may_remain = lambda name: is_temporary(name, usual.files)
-                        for mistake in incomplete_files(usual, before, outcome, may_remain):
+                        for mistake in incomplete_files(command, usual, before, outcome, may_remain):
                             print(f"{command.name}: killed: {mistake}")
                             failures += 1
                         left += sum(is_temporary(name, usual.files) for name in outcome.files)
