@@ -132,7 +132,7 @@ constexpr std::array<EnvironmentKey, 18> kEnvironmentKeys{
                                    "a whole number from 1 to 67,108,864",
                                    "number of markers"),
                   1.0F,
-                  kMaxMarkers)),
+                  static_cast<float>(kMaxMarkers))),
     required(above_0(number_key("radius",
                                 kSpace | kCrowd,
                                 &Fields::radius,
