@@ -114,7 +114,14 @@ void TilesetFolder::make(std::uint64_t digest) {
         return;
     }
     if (record == TilesetRecord::NoTiles) {
-        take(write_tileset_record(command_.output, digest, console_));
+        const Result<TilesetRecord> begun =
+            begin_tileset_record(command_.output, digest, console_);
+        if (!begun) {
+            stop(begun.error());
+        } else if (begun.value() != TilesetRecord::Same) {
+            // Another run writes other tiles now: not even --force may mix the two.
+            stop(other_tiles_error(command_.output, begun.value()));
+        }
     } else if (keeps) {
         stop(other_tiles_error(command_.output, record));
     } else {

@@ -26,6 +26,12 @@ std::string record_text(std::uint64_t digest) {
     return fmt::format("lsc tiles {:016x}\n", digest);
 }
 
+Result<void> write_record(Result<Output> output, std::uint64_t digest) {
+    Result<void> written =
+        output ? output.value().write(record_text(digest)) : Result<void>(output.error());
+    return written ? output.value().commit() : written;
+}
+
 /// Whether a folder has a tileset, or a part of one: its files and the folders of its levels.
 bool has_tiles(const std::string& folder) {
     const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
@@ -55,12 +61,21 @@ TilesetRecord find_tileset_record(const std::string& folder, std::uint64_t diges
     return text && text.value() == record_text(digest) ? TilesetRecord::Same : TilesetRecord::Other;
 }
 
+Result<TilesetRecord>
+begin_tileset_record(const std::string& folder, std::uint64_t digest, const Console& console) {
+    const Result<void> written =
+        write_record(Output::create(path_of_record(folder), console), digest);
+    if (written) {
+        return TilesetRecord::Same;
+    }
+    const TilesetRecord record = find_tileset_record(folder, digest);
+    const bool is_of_another_run = record == TilesetRecord::Same || record == TilesetRecord::Other;
+    return is_of_another_run ? Result<TilesetRecord>(record) : written.error();
+}
+
 Result<void>
 write_tileset_record(const std::string& folder, std::uint64_t digest, const Console& console) {
-    Result<Output> output = Output::open_one_of_many(path_of_record(folder), console);
-    Result<void> written =
-        output ? output.value().write(record_text(digest)) : Result<void>(output.error());
-    return written ? output.value().commit() : written;
+    return write_record(Output::open_one_of_many(path_of_record(folder), console), digest);
 }
 
 Result<void> remove_tileset_record(const std::string& folder) {

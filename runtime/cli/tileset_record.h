@@ -26,7 +26,11 @@ enum class TilesetRecord : std::uint8_t {
 
 /// Compares the record of `folder` with `digest`.
 [[nodiscard]] TilesetRecord find_tileset_record(const std::string& folder, std::uint64_t digest);
-/// Writes the record of `folder`.
+/// Writes the record of `folder`, which had none. Returns Same, or Other if another run has written
+/// a record of another digest meanwhile.
+[[nodiscard]] Result<TilesetRecord>
+begin_tileset_record(const std::string& folder, std::uint64_t digest, const Console& console);
+/// Writes the record of `folder`, or replaces it.
 [[nodiscard]] Result<void>
 write_tileset_record(const std::string& folder, std::uint64_t digest, const Console& console);
 /// Removes the record of `folder`, if it has one.

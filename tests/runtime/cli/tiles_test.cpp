@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The folder of `lsc tiles`; tests/export/read_tiles.mjs reads its contents.
+#include "runtime/cli/tileset_record.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -203,6 +205,30 @@ TEST_CASE("tiles of another scene are not resumed") {
     const std::string commented = "// a tree\n" + textured;
     REQUIRE(write(commented.c_str(), {"--resume", "--threads", "1", "--error", "0.5"}).status == 0);
     CHECK(files_of(tiles) == whole);
+}
+
+TEST_CASE("of two runs that begin in one empty folder, only those of one digest go on") {
+    using lsys::lsc::TilesetRecord;
+    const ScratchFolder folder;
+    std::istringstream in;
+    std::ostringstream out;
+    const lsys::Console console{{in, out, out}, {}};
+    const std::string tiles = folder.path().string();
+    const auto begin = [&](std::uint64_t digest) {
+        return lsys::lsc::begin_tileset_record(tiles, digest, console);
+    };
+    REQUIRE(lsys::lsc::find_tileset_record(tiles, 1) == TilesetRecord::NoTiles);
+    REQUIRE(lsys::lsc::find_tileset_record(tiles, 2) == TilesetRecord::NoTiles);
+    CHECK(begin(1).value() == TilesetRecord::Same);
+    const std::string record = read_text(folder / kRecord);
+    CHECK(begin(2).value() == TilesetRecord::Other);
+    CHECK(begin(1).value() == TilesetRecord::Same); // another part of the first run
+    CHECK(read_text(folder / kRecord) == record);
+    CHECK(files_of(folder.path()).empty()); // no temporary file
+    fs::remove(folder / kRecord);
+    fs::create_directories(folder / kRecord);
+    CHECK(begin(1).value() == TilesetRecord::Other);
+    CHECK_FALSE(lsys::lsc::begin_tileset_record(folder / "none", 1, console).ok());
 }
 
 TEST_CASE("tiles of an unknown scene are not resumed, and replaced by --force") {
