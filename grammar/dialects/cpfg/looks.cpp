@@ -281,7 +281,7 @@ private:
         }
         const std::string_view file = texture.file;
         constexpr std::array<std::string_view, 4> kRead = {".rgb", ".tga", ".png", ".jpg"};
-        if (std::ranges::none_of(kRead, [&](auto end) { return file.ends_with(end); })) {
+        if (!std::ranges::any_of(kRead, [&](auto end) { return file.ends_with(end); })) {
             leave_out(line, "only rgb, tga, png and jpg files are read");
             texture.file.clear();
         }
