@@ -2,9 +2,11 @@
 #include "runtime/output/output_set.h"
 
 #include "grammar/base/paths.h"
+#include "grammar/base/utf8.h"
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -22,10 +24,13 @@ bool OutputContext::can_write_beside(const std::string& path) const {
 
 Result<std::string> mtl_name(const std::filesystem::path& path) {
     std::string name = path_text(path.filename());
-    if (name.find_first_of("\r\n") != std::string::npos) {
-        return Error{
-            "the name of an OBJ file has no line ends, because the file names its .mtl file "
-            "in a line"};
+    for (std::string_view rest = name; !rest.empty();) {
+        const CodePoint first = decode_utf8(rest);
+        if (!first.valid || first.value < 0x20 || first.value == 0x7F) {
+            return Error{"the name of an OBJ file is UTF-8 without control characters, because the "
+                         "file names its .mtl file in a line of text"};
+        }
+        rest.remove_prefix(first.length);
     }
     return name;
 }

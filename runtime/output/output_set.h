@@ -39,7 +39,7 @@ struct OutputContext {
 };
 
 /// The name of a `.mtl` file as an OBJ file writes it, in a line of its own. An Error for a name
-/// with line ends.
+/// with control characters or bytes that are not UTF-8, which OBJ cannot express.
 [[nodiscard]] Result<std::string> mtl_name(const std::filesystem::path& path);
 
 class OutputSet {

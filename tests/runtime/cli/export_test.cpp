@@ -95,13 +95,21 @@ TEST_CASE("a stored and a streamed word give the same file, with any number of t
     }
 }
 
-TEST_CASE("an OBJ file whose name has a line end is refused") {
+TEST_CASE("an OBJ file whose name does not fit into a line of text is refused") {
     const ScratchFolder folder;
     write_text(folder / "a.lsys", "#n = 0; #w : F;");
-    const LscRun run = run_lsc({"export", folder / "a.lsys", "-o", folder / "new\nline.obj"}, "");
-    CHECK(run.status == 2);
-    CHECK(run.err.find("has no line ends") != std::string::npos);
+    std::vector<std::string> names{"new\nline.obj", "a\tb.obj", "a\x01z.obj", "a\x7Fz.obj"};
+#ifndef _WIN32
+    names.emplace_back("a\xFFz.obj");
+#endif
+    for (const std::string& name : names) {
+        const LscRun run = run_lsc({"export", folder / "a.lsys", "-o", folder / name}, "");
+        CHECK(run.status == 2);
+        CHECK(run.err.find("is UTF-8 without control characters") != std::string::npos);
+    }
     CHECK(folder.file_count() == 1);
+    CHECK(run_lsc({"export", folder / "a.lsys", "-o", folder / "né b.obj"}, "").status == 0);
+    CHECK(read_text(folder / "né b.obj").find("mtllib né b.mtl\n") != std::string::npos);
 }
 
 TEST_CASE("a plant that draws nothing is reported and gives no file") {
