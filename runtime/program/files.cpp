@@ -280,6 +280,11 @@ Result<Output> Output::reopen(const std::string& path, const Console& console) {
         Reason reason = platform::check_writable(path);
         if (reason == 0) {
             reason = platform::resolve_links(path, output.target_);
+            // In a folder whose path is too long for the system, `path` can still name a file.
+            if (reason == ENAMETOOLONG && platform::link_facts_of(path).type != FileType::Link) {
+                output.target_ = path;
+                reason = 0;
+            }
         }
         if (reason != 0) {
             return output.failure(reason);

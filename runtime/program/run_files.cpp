@@ -13,8 +13,11 @@ namespace {
 
 std::string resolved(const std::string& path) {
     std::error_code failed;
-    const std::filesystem::path whole = std::filesystem::weakly_canonical(path_of(path), failed);
-    return failed ? path : path_text(whole);
+    // Absolute first: weakly_canonical() leaves a relative path of a missing file relative, so that
+    // the file would have another path as soon as it is written.
+    const std::filesystem::path absolute = std::filesystem::absolute(path_of(path), failed);
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(absolute, failed);
+    return failed ? path_text(absolute) : path_text(whole);
 }
 
 } // namespace

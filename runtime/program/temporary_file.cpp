@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <string_view>
@@ -20,8 +21,26 @@ using platform::Reason;
 constexpr int kNumberedNames = 4;
 constexpr int kRandomNames = 100;
 
-std::string temporary_path(const std::string& target, std::string_view mark) {
-    return fmt::format("{}.lsys-{}.tmp", target, mark);
+constexpr std::size_t kMaxName = 255; // bytes of the name of a file
+constexpr std::size_t kMaxAddition = std::string_view(".lsys-abcdef.tmp").size();
+
+/// The part of `target` with which the paths of its temporary files begin: all of it, unless their
+/// names would be too long. Does not end within a character of UTF-8.
+std::string_view temporary_beginning(std::string_view target) {
+    const std::size_t slash = target.find_last_of('/');
+    const std::size_t name = slash == std::string_view::npos ? 0 : slash + 1;
+    std::size_t end = std::min(target.size(), name + kMaxName - kMaxAddition);
+    const auto is_within_character = [&target](std::size_t at) {
+        return at < target.size() && (static_cast<unsigned char>(target[at]) & 0xC0U) == 0x80U;
+    };
+    while (end > name && is_within_character(end)) {
+        --end;
+    }
+    return target.substr(0, end);
+}
+
+std::string temporary_path(std::string_view target, std::string_view mark) {
+    return fmt::format("{}.lsys-{}.tmp", temporary_beginning(target), mark);
 }
 
 std::string numbered_path_of(const std::string& target, int number) {
@@ -33,10 +52,11 @@ bool is_numbered_path(std::string_view path, std::string_view target) {
     static_assert(kNumberedNames <= 10); // one digit
     constexpr std::string_view kBefore = ".lsys-";
     constexpr std::string_view kBehind = ".tmp";
-    if (!path.starts_with(target)) {
+    const std::string_view beginning = temporary_beginning(target);
+    if (!path.starts_with(beginning)) {
         return false;
     }
-    const std::string_view end = path.substr(target.size());
+    const std::string_view end = path.substr(beginning.size());
     return end.size() == kBefore.size() + 1 + kBehind.size() && end.starts_with(kBefore) &&
            end.ends_with(kBehind) && end[kBefore.size()] >= '0' &&
            end[kBefore.size()] < '0' + kNumberedNames;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/program/weight_report.h"
 
+#include "grammar/base/exponentials.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -14,9 +16,13 @@ namespace {
 
 constexpr std::uint32_t kMaxSettleRounds = 2000; // max rounds of bent_height()
 
+constexpr double kBitsPerDigit = 3.3219280948873623; // binary logarithm of 10
+
 /// `value` rounded up to two significant digits.
 double rounded_up(double value) {
-    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    constexpr double kRounding = 1e-12; // so that the logarithm of 1000 is not below 3
+    const double digits = std::floor(binary_logarithm(value) / kBitsPerDigit + kRounding);
+    const double unit = power(10.0, digits - 1.0);
     return std::ceil(value / unit - 1e-9) * unit;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/base/paths.h"
 #include "runtime/program/files.h"
+#include "runtime/program/run_files.h"
 #include "tests/support/lsc_run.h"
 
 #include <catch2/catch.hpp>
@@ -112,6 +113,49 @@ TEST_CASE("temporary files of ended processes are removed by the next run") {
     CHECK(sibling.value().commit().ok());
     CHECK(read_text(f.folder / "x") == "sibling");
     CHECK(f.file_count() == 4);
+}
+
+TEST_CASE("files with names of 255 bytes can be written and replaced") {
+    Fixture f;
+    const std::string letters(239, 'a');
+    std::vector<std::string> names{letters + std::string(16, 'b'), std::string(250, 'c')};
+    std::string accented = "d";
+    while (accented.size() < 255) {
+        accented += "\u00E9"; // two bytes
+    }
+    names.push_back(accented);
+    for (const std::string& name : names) {
+        REQUIRE(name.size() <= 255);
+        CHECK(write_file(f.folder / name, "first", f.console).ok());
+        CHECK(write_file(f.folder / name, "second", f.console).ok());
+        CHECK(read_text(f.folder / name) == "second");
+    }
+    CHECK(f.file_count() == names.size());
+    // Two names that differ only behind the part that temporary names keep.
+    Result<Output> first = Output::open(f.folder / names[0], f.console);
+    const std::string other = letters + std::string(16, 'e');
+    Result<Output> second = Output::open(f.folder / other, f.console);
+    REQUIRE(first.ok());
+    REQUIRE(second.ok());
+    CHECK(first.value().write("of the first").ok());
+    CHECK(second.value().write("of the second").ok());
+    CHECK(first.value().commit().ok());
+    CHECK(second.value().commit().ok());
+    CHECK(read_text(f.folder / names[0]) == "of the first");
+    CHECK(read_text(f.folder / other) == "of the second");
+    CHECK(f.file_count() == names.size() + 1);
+}
+
+TEST_CASE("a file is recognised as written by a relative path, too") {
+    Fixture f;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(f.folder.path());
+    RunFiles files;
+    CHECK(files.begin_write("new").empty());
+    write_text("new", "first");
+    CHECK_FALSE(files.begin_write("new").empty());
+    CHECK_FALSE(files.begin_write(f.folder / "new").empty());
+    std::filesystem::current_path(before);
 }
 
 TEST_CASE("any number of writers may write one file at once") {
