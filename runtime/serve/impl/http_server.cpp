@@ -64,6 +64,21 @@ std::string_view view_of(beast::string_view text) {
     return {text.data(), text.size()};
 }
 
+/// The path and query of the target of a request. The absolute form, `http://HOST/PATH`, names the
+/// host, too (RFC 9112, section 3.2.2).
+std::string_view path_of_target(std::string_view target) {
+    constexpr std::string_view kScheme = "http://";
+    const std::string_view beginning = target.substr(0, kScheme.size());
+    const auto text = [](std::string_view view) {
+        return beast::string_view(view.data(), view.size());
+    };
+    if (!beast::iequals(text(beginning), text(kScheme))) { // only a path
+        return target;
+    }
+    const std::size_t path = target.find_first_of("/?", kScheme.size());
+    return path == std::string_view::npos || target[path] == '?' ? "/" : target.substr(path);
+}
+
 /// A connection: reads a request, lets the pool answer it, and writes the response.
 class Session : public std::enable_shared_from_this<Session> {
 public:
@@ -83,11 +98,12 @@ public:
         parser_->header_limit(kMaxHeaderBytes);
         is_idle_ = true;
         stream_.expires_after(kIdleTimeout);
-        http::async_read(stream_, buffer_, *parser_,
-                         [self = shared_from_this()](beast::error_code error, std::size_t) {
-                             self->is_idle_ = false;
-                             self->answer(error);
-                         });
+        // Only the header: with `Expect: 100-continue`, a client waits before it sends a body.
+        http::async_read_header(stream_, buffer_, *parser_,
+                                [self = shared_from_this()](beast::error_code error, std::size_t) {
+                                    self->is_idle_ = false;
+                                    self->answer(error);
+                                });
     }
     /// Closes the connection if it waits for a request; otherwise it is closed after the current
     /// response.
@@ -108,10 +124,6 @@ private:
             refuse(http::status::request_header_fields_too_large);
             return;
         }
-        if (error == http::error::unexpected_body || error == http::error::body_limit) {
-            refuse(http::status::payload_too_large);
-            return;
-        }
         if (error &&
             error.category() == http::make_error_code(http::error::bad_version).category() &&
             error != http::error::end_of_stream && error != http::error::partial_message) {
@@ -120,6 +132,16 @@ private:
         }
         if (error) { // closed by the client, or idle for too long
             close();
+            return;
+        }
+        if (!parser_->is_done()) { // a body follows
+            refuse(http::status::payload_too_large);
+            return;
+        }
+        const http::request<http::empty_body>& request = parser_->get();
+        const std::size_t hosts = request.count(http::field::host);
+        if (hosts > 1 || (hosts == 0 && request.version() != 10)) { // RFC 9112, section 3.2
+            refuse(http::status::bad_request);
             return;
         }
         asio::post(shared_.pool, [self = shared_from_this()]() mutable {
@@ -135,7 +157,7 @@ private:
         const auto field = [&](http::field name) { return view_of(request[name]); };
         try {
             response_ = shared_.service.respond(
-                {view_of(request.method_string()), view_of(request.target()),
+                {view_of(request.method_string()), path_of_target(view_of(request.target())),
                  field(http::field::accept_encoding), field(http::field::if_none_match),
                  field(http::field::range), field(http::field::if_range)});
         } catch (const std::bad_alloc&) {

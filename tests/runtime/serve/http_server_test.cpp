@@ -155,7 +155,26 @@ TEST_CASE("bad requests are refused and the connection ends") {
             .starts_with("HTTP/1.1 413 "));
     CHECK(ask(server.port(), "POST /health HTTP/1.1\r\nHost: here\r\nConnection: close\r\n\r\n")
               .starts_with("HTTP/1.1 405 "));
+    CHECK(ask(server.port(), "POST /health HTTP/1.1\r\nHost: here\r\nContent-Length: 3\r\n"
+                             "Expect: 100-continue\r\n\r\n")
+              .starts_with("HTTP/1.1 413 "));
+    CHECK(ask(server.port(), "POST /health HTTP/1.1\r\nHost: here\r\n"
+                             "Transfer-Encoding: chunked\r\n\r\n")
+              .starts_with("HTTP/1.1 413 "));
+    CHECK(ask(server.port(), "GET /health HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 400 "));
+    CHECK(ask(server.port(), "GET /health HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n")
+              .starts_with("HTTP/1.1 400 "));
     CHECK(body_of(ask(server.port(), request_of("/health"))) == "ok\n");
+}
+
+TEST_CASE("the target of a request may name the host") {
+    const RunningServer server;
+    CHECK(body_of(ask(server.port(), request_of("http://here/health"))) == "ok\n");
+    CHECK(body_of(ask(server.port(), request_of("HTTP://here:80/health"))) == "ok\n");
+    const std::string page = body_of(ask(server.port(), request_of("/")));
+    CHECK(body_of(ask(server.port(), request_of("http://here"))) == page);
+    CHECK(body_of(ask(server.port(), request_of("http://here?a/b"))) == page);
+    CHECK(body_of(ask(server.port(), "GET /health HTTP/1.0\r\n\r\n")) == "ok\n"); // no host
 }
 
 TEST_CASE("connections beyond the limit are closed, and requests cut short do no harm") {
