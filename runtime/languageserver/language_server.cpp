@@ -449,6 +449,23 @@ void LanguageServer::State::receive(const Json& message, const std::set<std::str
     }
 }
 
+namespace {
+
+/// Parses a message; discarded if it is not JSON or nested too deep. Each level of nesting takes
+/// much more memory than its character.
+Json parse_message(const std::string& body) {
+    constexpr int kMaxNesting = 1000;
+    bool is_too_deep = false;
+    const auto keep = [&is_too_deep](int depth, Json::parse_event_t, Json&) {
+        is_too_deep = is_too_deep || depth > kMaxNesting;
+        return !is_too_deep;
+    };
+    Json message = Json::parse(body, keep, false);
+    return is_too_deep ? Json(Json::value_t::discarded) : message;
+}
+
+} // namespace
+
 LanguageServer::LanguageServer(LanguageServerHost host)
     : state_(std::make_unique<State>(with_shared_files(std::move(host)))) {}
 
@@ -458,7 +475,7 @@ std::vector<std::string> LanguageServer::receive(const std::vector<ReadMessage>&
     std::vector<Json> parsed;
     std::set<std::string> cancelled; // ids as JSON
     for (const ReadMessage& message : messages) {
-        parsed.push_back(message.error.empty() ? Json::parse(message.body, nullptr, false)
+        parsed.push_back(message.error.empty() ? parse_message(message.body)
                                                : Json(Json::value_t::discarded));
         if (!parsed.back().is_discarded() &&
             member(parsed.back(), {"method"}) == "$/cancelRequest") {
