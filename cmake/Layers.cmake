@@ -26,7 +26,7 @@ set(LSYS_LAYERS
   "runtime/turtle: grammar/base compiler/bytecode runtime/base runtime/derive"
   "runtime/meshing: grammar/base runtime/base runtime/turtle"
   "runtime/environment: grammar/base compiler/bytecode runtime/base runtime/derive runtime/turtle runtime/meshing"
-  "runtime/physics: runtime/base runtime/turtle"
+  "runtime/physics: grammar/base runtime/base runtime/turtle"
   "runtime/forest: grammar/base compiler/bytecode runtime/base runtime/derive runtime/turtle runtime/meshing"
   "runtime/terrain: grammar/base runtime/base runtime/meshing"
   "runtime/placement: grammar/base runtime/base runtime/forest runtime/terrain"

@@ -2,7 +2,10 @@
 #include "compiler/bytecode/arithmetic.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/exponentials.h"
+#include "grammar/base/trigonometry.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace lsys::arithmetic {
@@ -42,7 +45,7 @@ float no_arithmetic(Opcode opcode) {
 } // namespace
 
 float power(float x, float y) {
-    return rounded(std::pow(wide(x), wide(y)));
+    return rounded(y == 2.0F ? wide(x) * wide(x) : lsys::power(wide(x), wide(y)));
 }
 
 float sine(float degrees) {
@@ -56,7 +59,7 @@ float sine(float degrees) {
     case 3:
         return -1.0F;
     default:
-        return rounded(std::sin(angle * kRadiansPerDegree));
+        return rounded(sine_cosine(angle * kRadiansPerDegree).sine);
     }
 }
 
@@ -71,7 +74,7 @@ float cosine(float degrees) {
     case 2:
         return -1.0F;
     default:
-        return rounded(std::cos(angle * kRadiansPerDegree));
+        return rounded(sine_cosine(angle * kRadiansPerDegree).cosine);
     }
 }
 
@@ -86,27 +89,28 @@ float tangent(float degrees) {
     case 3:
         return -HUGE_VALF;
     default:
-        return rounded(std::tan(angle * kRadiansPerDegree));
+        const SineCosine turn = sine_cosine(angle * kRadiansPerDegree);
+        return rounded(turn.sine / turn.cosine);
     }
 }
 
 float arc_sine(float x) {
-    return rounded(std::asin(wide(x)) * kDegreesPerRadian);
+    return rounded(lsys::arc_sine(wide(x)) * kDegreesPerRadian);
 }
 float arc_cosine(float x) {
-    return rounded(std::acos(wide(x)) * kDegreesPerRadian);
+    return rounded(lsys::arc_cosine(wide(x)) * kDegreesPerRadian);
 }
 float arc_tangent(float x) {
-    return rounded(std::atan(wide(x)) * kDegreesPerRadian);
+    return rounded(lsys::arc_tangent(wide(x), 1.0) * kDegreesPerRadian);
 }
 float arc_tangent2(float y, float x) {
-    return rounded(std::atan2(wide(y), wide(x)) * kDegreesPerRadian);
+    return rounded(polar_angle(wide(y), wide(x)) * kDegreesPerRadian);
 }
 float exponential(float x) {
-    return rounded(std::exp(wide(x)));
+    return rounded(lsys::exponential(wide(x)));
 }
 float logarithm(float x) {
-    return rounded(std::log(wide(x)));
+    return rounded(lsys::logarithm(wide(x)));
 }
 
 bool is_arithmetic(Opcode opcode) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/bytecode/distributions.h"
 
+#include "grammar/base/exponentials.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -135,7 +137,7 @@ double normal_quantile(double p) {
         const double r = 0.180625 - offset * offset;
         return offset * polynomial(kCentralNumerator, r) / polynomial(kCentralDenominator, r);
     }
-    const double r = std::sqrt(-std::log(offset < 0.0 ? p : 1.0 - p));
+    const double r = std::sqrt(-logarithm(offset < 0.0 ? p : 1.0 - p));
     const double distance =
         r <= 5.0 ? polynomial(kTailNumerator, r - 1.6) / polynomial(kTailDenominator, r - 1.6)
                  : polynomial(kFarNumerator, r - 5.0) / polynomial(kFarDenominator, r - 5.0);
@@ -144,7 +146,7 @@ double normal_quantile(double p) {
 
 std::uint32_t poisson_quantile(double mean, double u) {
     Term term;
-    term.multiply(std::exp(-mean));
+    term.multiply(exponential(-mean));
     double sum = 0.0;
     for (std::uint32_t k = 0;; ++k) {
         const double before = sum;

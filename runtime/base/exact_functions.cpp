@@ -3,8 +3,9 @@
 // functions of slow_functions.h, in about 2 ms.
 #include "runtime/base/exact_functions.h"
 
+#include "grammar/base/double_double.h"
+#include "grammar/base/trigonometry.h"
 #include "runtime/base/slow_functions.h"
-#include "runtime/base/trigonometry.h"
 
 #include <array>
 #include <bit>
@@ -17,41 +18,6 @@
 namespace lsys {
 
 namespace {
-
-/// high + low, with |low| at most half a unit in the last place of high.
-struct DoubleDouble {
-    double high = 0.0;
-    double low = 0.0;
-};
-
-/// Exact sum. Precondition: |a| >= |b| or a = 0 (Dekker 1971).
-DoubleDouble ordered_sum(double a, double b) {
-    const double sum = a + b;
-    return {sum, b - (sum - a)};
-}
-
-/// Exact sum (Knuth 1969).
-DoubleDouble exact_sum(double a, double b) {
-    const double sum = a + b;
-    const double of_b = sum - a;
-    return {sum, (a - (sum - of_b)) + (b - of_b)};
-}
-
-/// Exact product, if neither overflows nor underflows (Dekker 1971, by Veltkamp's splitting).
-DoubleDouble exact_product(double a, double b) {
-    constexpr double kVeltkampFactor = 0x1p27 + 1.0;
-    const auto high_half = [](double x) {
-        const double scaled = kVeltkampFactor * x;
-        return scaled - (scaled - x);
-    };
-    const double a_high = high_half(a);
-    const double a_low = a - a_high;
-    const double b_high = high_half(b);
-    const double b_low = b - b_high;
-    const double product = a * b;
-    return {product,
-            ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
-}
 
 /// A number of magnitude below 2^51 rounded to a whole number.
 double nearest_whole(double x) {

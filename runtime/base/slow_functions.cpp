@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/base/slow_functions.h"
 
-#include "runtime/base/trigonometry.h"
+#include "grammar/base/trigonometry.h"
 
 #include <algorithm>
 #include <array>

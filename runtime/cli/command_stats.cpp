@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/growth/growth.h"
+#include "grammar/base/exponentials.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/derivation_report.h"
 #include "runtime/derive/derive.h"
@@ -48,7 +49,7 @@ std::string factor_text(const Count& before, const Count& now) {
     if (!now.exceeds && now.value == 0) {
         return "0";
     }
-    return fmt::format("{:.4g}", std::exp2(now.approximate_log2() - before.approximate_log2()));
+    return fmt::format("{:.4g}", power_of_two(now.approximate_log2() - before.approximate_log2()));
 }
 
 std::string factor_bounds(const GrowthPrediction& growth, std::size_t generation) {

@@ -2,6 +2,7 @@
 #include "runtime/forest/instance_cache.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/trigonometry.h"
 #include "runtime/base/out_of_memory.h"
 
 #include <algorithm>
@@ -209,8 +210,8 @@ private:
             const glm::dvec3 up = place.frame * glm::dvec3(0.0, 0.0, 1.0);
             constexpr double kDegrees = 180.0 / std::numbers::pi;
             values.elevation =
-                static_cast<float>(std::asin(std::clamp(heading.y, -1.0, 1.0)) * kDegrees);
-            values.roll = static_cast<float>(std::atan2(right.y, up.y) * kDegrees);
+                static_cast<float>(arc_sine(std::clamp(heading.y, -1.0, 1.0)) * kDegrees);
+            values.roll = static_cast<float>(polar_angle(right.y, up.y) * kDegrees);
             add_real(branch.id, values.elevation);
             add_real(branch.id, values.roll);
         }
@@ -333,8 +334,9 @@ CacheOutcome make_instance_cache(const Bytecode& bytecode, const CacheOptions& o
 
 BranchInstance root_of(const Tree& tree) {
     BranchInstance root;
-    const float half = 0.5F * tree.yaw;
-    root.rotation = glm::quat(std::cos(half), 0.0F, std::sin(half), 0.0F);
+    const SineCosine half = sine_cosine(0.5 * static_cast<double>(tree.yaw));
+    root.rotation =
+        glm::quat(static_cast<float>(half.cosine), 0.0F, static_cast<float>(half.sine), 0.0F);
     root.position = tree.position;
     root.scale = tree.scale;
     return root;

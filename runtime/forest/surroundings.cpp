@@ -2,9 +2,9 @@
 #include "runtime/forest/surroundings.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/trigonometry.h"
 #include "runtime/base/large_vector.h"
 #include "runtime/base/random.h"
-#include "runtime/base/trigonometry.h"
 #include "runtime/base/workers.h"
 #include "runtime/forest/forest.h"
 #include "runtime/forest/tree_heights.h"
@@ -67,9 +67,7 @@ std::uint32_t quarter_of(const Offset& front, const Offset& to) {
 
 /// The yaw in radians, -pi to pi, that turns +X to the direction of an offset.
 double yaw_of(const Offset& to) {
-    const double y = 0.0 - to.z;
-    return to.x >= 0.0 ? arc_tangent(y, to.x)
-                       : std::copysign(std::numbers::pi, y) - arc_tangent(y, -to.x);
+    return polar_angle(0.0 - to.z, to.x);
 }
 
 /// Trees in square cells of the ground.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/bytecode/module_file.h"
 #include "compiler/growth/growth.h"
+#include "grammar/base/exponentials.h"
 #include "runtime/library/impl/call.h"
 #include "runtime/library/impl/data.h"
 #include "runtime/pipeline/portable_files.h"
@@ -51,7 +52,7 @@ Outcome<Grammar> compile(Call& call,
 }
 
 double rounded(const Count& count) {
-    return count.exceeds ? std::exp2(count.log2)
+    return count.exceeds ? power_of_two(count.log2)
                          : std::ldexp(static_cast<double>(count.value.high), 64) +
                                static_cast<double>(count.value.low);
 }

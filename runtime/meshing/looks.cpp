@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/meshing/looks.h"
 
+#include "grammar/base/exponentials.h"
 #include "grammar/base/number_chars.h"
 #include "runtime/meshing/impl/linear_textures.h"
 #include "runtime/meshing/mesh.h"
@@ -25,7 +26,7 @@ std::shared_ptr<const Texture> built_in_picture(MaterialKind kind) {
 
 float linear_of_srgb(float part) {
     const auto c = static_cast<double>(part);
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : power((c + 0.055) / 1.055, 2.4));
 }
 
 void add_look(ItemColour index, Look look, Looks& looks) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/meshing/shapes.h"
 
+#include "grammar/base/trigonometry.h"
 #include "runtime/meshing/impl/surfaces.h"
 #include "runtime/meshing/texture.h"
 
@@ -139,9 +140,14 @@ constexpr std::array<PetalRow, 3> kPetalRows{{
 }};
 constexpr float kPetalHalfWidth = kPetalRows[1].half_width;
 
+/// The horizontal unit vector that +Z becomes after a part of a turn about +Y.
+glm::vec3 outwards(float turns) {
+    const SineCosine turn = sine_cosine(2.0 * std::numbers::pi * static_cast<double>(turns));
+    return glm::vec3(glm::dvec3(turn.sine, 0.0, turn.cosine));
+}
+
 std::uint32_t append_petal_point(ShapePart& part, const PetalRow& row, float side, float turns) {
-    const float angle = 2.0F * std::numbers::pi_v<float> * turns;
-    const glm::vec3 out(std::sin(angle), 0.0F, std::cos(angle));
+    const glm::vec3 out = outwards(turns);
     const glm::vec3 across(out.z, 0.0F, -out.x);
     // The edges are bent up and inwards.
     const float bend = 0.12F * std::abs(side) * row.half_width;
@@ -177,8 +183,7 @@ void append_petal(ShapePart& part, std::span<const PetalRow> rows, float turns) 
 
 /// A pointed leaf under the gap between two petals.
 void append_sepal(ShapePart& part, float turns) {
-    const float angle = 2.0F * std::numbers::pi_v<float> * turns;
-    const glm::vec3 out(std::sin(angle), 0.0F, std::cos(angle));
+    const glm::vec3 out = outwards(turns);
     const glm::vec3 across(out.z, 0.0F, -out.x);
     const glm::vec3 up(0.0F, 1.0F, 0.0F);
     const auto first = static_cast<std::uint32_t>(part.positions.size());
@@ -234,10 +239,10 @@ Shape make_sphere(std::uint32_t level) {
     std::vector<ProfilePoint> profile;
     for (std::uint32_t i = 0; i <= rings; ++i) {
         // Symmetric, with an exact equator.
-        const float angle =
-            std::numbers::pi_v<float> * (static_cast<float>(i) / static_cast<float>(rings) - 0.5F);
+        const SineCosine turn =
+            sine_cosine(std::numbers::pi * (static_cast<double>(i) / rings - 0.5));
         const bool pole = i == 0 || i == rings;
-        const glm::vec2 normal(pole ? 0.0F : std::cos(angle), std::sin(angle));
+        const glm::vec2 normal(glm::dvec2(pole ? 0.0 : turn.cosine, turn.sine));
         profile.push_back({0.5F * normal.x, 0.5F + 0.5F * normal.y, normal});
     }
     append_revolution(part, profile, halved(16, level, 4));

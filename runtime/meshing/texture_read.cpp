@@ -3,6 +3,7 @@
 #include "runtime/base/png_samples.h"
 #include "runtime/base/sgi_texels.h"
 #include "runtime/base/targa_texels.h"
+#include "runtime/meshing/looks.h"
 #include "runtime/meshing/texture.h"
 
 #include <fmt/format.h>
@@ -45,11 +46,6 @@ std::optional<Result<PictureTexels>> read_other_texels(std::string_view bytes,
         return read_sgi_texels(bytes, kMaxTexels, max_bytes);
     }
     return read_targa_texels(bytes, kMaxTexels, max_bytes);
-}
-
-float linear(std::uint8_t value) { // IEC 61966-2-1
-    const float c = static_cast<float>(value) / 255.0F;
-    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
 }
 
 } // namespace
@@ -165,7 +161,7 @@ glm::vec3 mean_colour(const Texture& texture) {
         double sum = 0.0;
         for (std::size_t value = 0; value < 256; ++value) {
             sum += static_cast<double>(counts[256 * c + value]) *
-                   static_cast<double>(linear(static_cast<std::uint8_t>(value)));
+                   static_cast<double>(linear_of_srgb(static_cast<float>(value) / 255.0F));
         }
         mean[static_cast<glm::length_t>(c)] = static_cast<float>(sum / static_cast<double>(count));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/physics/animation.h"
 
-#include "runtime/base/trigonometry.h"
+#include "grammar/base/trigonometry.h"
 
 #include <glm/geometric.hpp>
 

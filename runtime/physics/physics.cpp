@@ -45,6 +45,7 @@
 // discards the result and settles without stages, so that the energy never grows.
 #include "runtime/physics/physics.h"
 
+#include "grammar/base/trigonometry.h"
 #include "runtime/physics/impl/coarse.h"
 #include "runtime/physics/impl/ground.h"
 #include "runtime/physics/impl/motion.h"
@@ -211,12 +212,13 @@ glm::dquat bent_by_itself(const Body& body, const glm::dquat& start, const Force
             return start;
         }
         const double max_torque = glm::length(centre) * glm::length(force);
-        const double whole = std::atan2(size, glm::dot(centre, force));
+        const double whole = polar_angle(size, glm::dot(centre, force));
         double low = 0.0;
         double high = whole;
         for (int i = 0; i < kHalvings; ++i) {
             const double middle = 0.5 * (low + high);
-            (body.spring * middle < max_torque * std::sin(whole - middle) ? low : high) = middle;
+            (body.spring * middle < max_torque * sine_cosine(whole - middle).sine ? low : high) =
+                middle;
         }
         turn = glm::normalize(rotation_of(low / size * torque) * start);
     }
@@ -232,8 +234,8 @@ double part_of(double period, double own) {
 /// positive.
 double gust_at(double time, double period) {
     const double turns = 2.0 * std::numbers::pi * time;
-    return 0.6 * std::sin(turns / part_of(period, 3.1)) +
-           0.4 * std::sin(turns / part_of(period, 1.3));
+    return 0.6 * sine_cosine(turns / part_of(period, 3.1)).sine +
+           0.4 * sine_cosine(turns / part_of(period, 1.3)).sine;
 }
 
 Forces forces_of(const PhysicsOptions& options) {

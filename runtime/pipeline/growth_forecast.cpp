@@ -2,6 +2,7 @@
 #include "runtime/pipeline/growth_forecast.h"
 
 #include "compiler/growth/growth.h"
+#include "grammar/base/exponentials.h"
 #include "runtime/base/saturating.h"
 #include "runtime/derive/brackets.h"
 
@@ -128,7 +129,7 @@ std::vector<double> predict_expected_modules(const Bytecode& bytecode, std::uint
     }
     std::vector<double> modules;
     for (const GenerationSize& size : growth.low) {
-        modules.push_back(std::exp2(size.modules.approximate_log2()));
+        modules.push_back(power_of_two(size.modules.approximate_log2()));
     }
     return modules;
 }

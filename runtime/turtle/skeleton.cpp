@@ -87,8 +87,8 @@ SkeletonStats measure(const Skeleton& skeleton) {
     double farthest = 0.0;
     const auto add_point = [&](const glm::vec3& point) {
         stats.bounds.add(point);
-        farthest = std::max(farthest,
-                            std::hypot(static_cast<double>(point.x), static_cast<double>(point.z)));
+        const glm::dvec2 from_axis(point.x, point.z);
+        farthest = std::max(farthest, glm::length(from_axis));
     };
     for (const Segment& segment : skeleton.segments) {
         add_point(segment.base);

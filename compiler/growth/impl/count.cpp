@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/growth/growth.h"
+#include "grammar/base/exponentials.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ Count from_log2(double log2) {
 /// log2(2^a + 2^b)
 double add_logs(double a, double b) {
     const double greater = std::max(a, b);
-    return greater + std::log2(1.0 + std::exp2(std::min(a, b) - greater));
+    return greater + binary_logarithm(1.0 + power_of_two(std::min(a, b) - greater));
 }
 
 } // namespace
@@ -28,7 +29,8 @@ double Count::approximate_log2() const {
     if (exceeds) {
         return log2;
     }
-    return value == 0 ? -std::numeric_limits<double>::infinity() : std::log2(to_double(value));
+    return value == 0 ? -std::numeric_limits<double>::infinity()
+                      : binary_logarithm(to_double(value));
 }
 
 Count operator+(const Count& a, const Count& b) {

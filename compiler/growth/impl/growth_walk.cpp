@@ -3,6 +3,7 @@
 
 #include "compiler/growth/impl/count_math.h"
 #include "grammar/base/contract.h"
+#include "grammar/base/exponentials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ Count subtract(const Count& a, const Count& b) {
 }
 
 double as_double(const Count& count) {
-    return count.exceeds ? std::exp2(std::min(count.log2, 1000.0)) : to_double(count.value);
+    return count.exceeds ? power_of_two(std::min(count.log2, 1000.0)) : to_double(count.value);
 }
 
 } // namespace

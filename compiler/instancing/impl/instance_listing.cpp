@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compiler/instancing/impl/instancing_pass.h"
 #include "compiler/program/module_text.h"
+#include "grammar/base/exponentials.h"
 
 #include <fmt/format.h>
 
@@ -98,8 +99,8 @@ private:
                 taken += takes(form, c) ? 1U : 0U;
             }
             // Probability of this form among the forms of the production.
-            const double part = std::pow(rho_, static_cast<double>(taken)) *
-                                std::pow(1.0 - rho_, static_cast<double>(sites.size() - taken));
+            const double part = power(rho_, static_cast<double>(taken)) *
+                                power(1.0 - rho_, static_cast<double>(sites.size() - taken));
             const std::string_view name = names_.text(production.name);
             const bool rewrites = production.stage == Stage::Rewrite;
             out_ += rewrites ? fmt::format("#{}.{}", name, form)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/dialects/cpfg/known_values.h"
 
+#include "grammar/base/exponentials.h"
 #include "grammar/base/number_chars.h"
 
 #include <array>
@@ -51,7 +52,7 @@ std::optional<double> binary(std::string_view operation, double a, double b) {
             return row.value;
         }
     }
-    return operation == "^" ? std::optional(std::pow(a, b)) : std::nullopt;
+    return operation == "^" ? std::optional(power(a, b)) : std::nullopt;
 }
 
 std::optional<double> function(std::string_view name, const std::vector<double>& arguments) {

@@ -15,6 +15,11 @@ namespace lsys {
 
 namespace {
 
+/// std::hypot() is not rounded in the same way on every machine.
+double length_of(double x, double y) {
+    return std::sqrt(x * x + y * y);
+}
+
 constexpr std::string_view kBlanks = " \t\r";
 constexpr std::uint32_t kSides = 8; // the default of cpfg
 constexpr std::uint32_t kMinSides = 3;
@@ -179,7 +184,7 @@ std::vector<CurvePoint> spaced(const ContourFile& file, std::uint32_t count) {
         const double t = std::min(static_cast<double>(i) / kStepsPerSpan,
                                   static_cast<double>(spans) - (file.closed ? 0.0 : 1e-9));
         const CurvePoint at = spline_at(file.points, t);
-        lengths.push_back(lengths.back() + std::hypot(at.x - before.x, at.y - before.y));
+        lengths.push_back(lengths.back() + length_of(at.x - before.x, at.y - before.y));
         before = at;
     }
     std::vector<CurvePoint> result;
@@ -201,7 +206,7 @@ std::vector<CurvePoint> spaced(const ContourFile& file, std::uint32_t count) {
 /// Turns a closed contour so that its first point lies on the x axis, as cpfg does.
 void turn_to_axis(std::vector<CurvePoint>& points) {
     const CurvePoint first = points.front();
-    const double length = std::hypot(first.x, first.y);
+    const double length = length_of(first.x, first.y);
     if (!(length > 1e-9)) {
         return;
     }
@@ -223,7 +228,8 @@ std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t side
         points.back() = points.front();
         turn_to_axis(points);
     } else {
-        std::ranges::reverse(points); // u of texture coordinates falls along a contour in cpfg
+        std::reverse(points.begin(),
+                     points.end()); // u of texture coordinates falls along a contour in cpfg
     }
     for (CurvePoint& point : points) {
         // x of cpfg points along its up vector, -U of .lsys, and y to the right. Both are relative
@@ -231,7 +237,7 @@ std::vector<CurvePoint> contour_points(std::string_view text, std::uint32_t side
         point = {0.5 * point.y, -0.5 * point.x};
     }
     const bool has_extent = std::ranges::any_of(points, [&](const CurvePoint& point) {
-        return std::hypot(point.x - points.front().x, point.y - points.front().y) > 1e-6;
+        return length_of(point.x - points.front().x, point.y - points.front().y) > 1e-6;
     });
     return has_extent ? points : std::vector<CurvePoint>{};
 }

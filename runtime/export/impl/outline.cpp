@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/export/impl/outline.h"
 
+#include "grammar/base/trigonometry.h"
 #include "runtime/export/impl/opacity_outline.h"
 #include "runtime/meshing/looks.h"
 #include "runtime/meshing/organ_shape.h"
@@ -28,8 +29,8 @@ glm::vec3 direction(int i) {
     const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
     const double z = 1.0 - (2.0 * i + 1.0) / kDirections;
     const double radius = std::sqrt(1.0 - z * z);
-    return glm::vec3(static_cast<float>(radius * std::cos(golden * i)),
-                     static_cast<float>(radius * std::sin(golden * i)), static_cast<float>(z));
+    const SineCosine turn = sine_cosine(golden * i);
+    return glm::vec3(glm::dvec3(radius * turn.cosine, radius * turn.sine, z));
 }
 
 /// The farthest point in each of many directions, without duplicates.

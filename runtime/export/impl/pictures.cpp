@@ -6,6 +6,7 @@
 #include "runtime/export/impl/formats.h"
 #include "runtime/export/impl/text.h"
 #include "runtime/export/impl/usda_variants.h"
+#include "runtime/meshing/looks.h"
 
 #include <algorithm>
 #include <array>
@@ -61,18 +62,12 @@ std::size_t number_of(std::vector<Picture>& list, const Picture& wanted) {
     return list.size() - 1;
 }
 
-/// Linear value of an sRGB byte (IEC 61966-2-1).
-float linear(std::uint8_t value) {
-    const float c = static_cast<float>(value) / 255.0F;
-    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
-}
-
 void tint(Texture& texture, const glm::vec3& colour) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
         std::array<std::uint8_t, 256> tinted{};
         for (std::size_t value = 0; value < tinted.size(); ++value) {
             tinted[value] = srgb_byte(colour[static_cast<int>(channel)] *
-                                      linear(static_cast<std::uint8_t>(value)));
+                                      linear_of_srgb(static_cast<float>(value) / 255.0F));
         }
         for (std::size_t i = channel; i < texture.texels.size(); i += 4) {
             texture.texels[i] = tinted[texture.texels[i]];

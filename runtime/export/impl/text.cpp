@@ -2,6 +2,7 @@
 #include "runtime/export/impl/text.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/exponentials.h"
 
 #include <fmt/format.h>
 
@@ -208,7 +209,8 @@ std::string unique_name(const std::vector<std::string>& taken, const std::string
 
 float srgb(float linear) {
     const float c = std::clamp(linear, 0.0F, 1.0F);
-    return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
+    const auto root = static_cast<float>(power(static_cast<double>(c), 1.0 / 2.4));
+    return c <= 0.0031308F ? 12.92F * c : 1.055F * root - 0.055F;
 }
 
 std::uint8_t srgb_byte(float linear) {

@@ -2,6 +2,7 @@
 #include "runtime/meshing/impl/droop.h"
 
 #include "grammar/base/contract.h"
+#include "grammar/base/trigonometry.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -60,7 +61,9 @@ void Droop::bend(const ShapePart& part,
     const glm::vec3 axis(across.z, 0.0F, -across.x);
     // A blade is stiff sideways: if it bent further, it would fold at its inner edge.
     const float max_turn = glm::mix(std::numbers::pi_v<float>, kSidewaysTurn, std::abs(across.x));
-    const float turn = amount * std::min(std::atan2(length, down.y), max_turn);
+    const auto to_ground =
+        static_cast<float>(polar_angle(static_cast<double>(length), static_cast<double>(down.y)));
+    const float turn = amount * std::min(to_ground, max_turn);
 
     struct Row {
         glm::vec3 centre;
@@ -69,9 +72,9 @@ void Droop::bend(const ShapePart& part,
     };
     std::array<Row, kMaxRows> rows;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const float angle = turn * turn_parts_[i];
-        const float c = std::cos(angle);
-        const float s = std::sin(angle);
+        const SineCosine bend_here = sine_cosine(static_cast<double>(turn * turn_parts_[i]));
+        const auto c = static_cast<float>(bend_here.cosine);
+        const auto s = static_cast<float>(bend_here.sine);
         rows[i] = {.centre = glm::vec3(0.0F),
                    .along = glm::vec3(0.0F, c, 0.0F) + s * across,
                    .across = c * across - glm::vec3(0.0F, s, 0.0F)};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/l3d_shapes.h"
 
+#include "grammar/base/trigonometry.h"
+#include "runtime/base/axis_rotation.h"
 #include "runtime/base/glibc_random.h"
 
 #include <glm/ext/quaternion_double.hpp>
@@ -32,11 +34,11 @@ glm::dquat turn_to(const glm::dvec3& heading) {
         return {1.0, 0.0, 0.0, 0.0};
     }
     axis /= length;
-    const double angle = std::acos(std::clamp(heading.y / glm::length(heading), -1.0, 1.0));
+    const double angle = arc_cosine(std::clamp(heading.y / glm::length(heading), -1.0, 1.0));
     if (std::abs(angle) <= kNoTurn) {
         return {1.0, 0.0, 0.0, 0.0};
     }
-    return glm::angleAxis(angle, axis);
+    return rotation_about(axis, angle);
 }
 
 glm::dvec3 heading_of(const glm::quat& frame) {
@@ -74,7 +76,8 @@ void ShapeWriter::cylinder(const Segment& segment, std::uint32_t number) {
     const std::uint64_t first = vertex_;
     for (std::uint32_t i = 0; i < sides; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / sides;
-        const glm::dvec3 out(std::cos(angle), 0.0, std::sin(angle));
+        const SineCosine around = sine_cosine(angle);
+        const glm::dvec3 out(around.cosine, 0.0, around.sine);
         const glm::dvec3 along(-out.z, 0.0, out.x);
         for (const bool top : {true, false}) {
             const auto radius = static_cast<double>(top ? segment.tip_radius : segment.base_radius);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/meshing/impl/surfaces.h"
 
+#include "grammar/base/trigonometry.h"
+
 #include <glm/geometric.hpp>
 
 #include <array>
@@ -15,8 +17,9 @@ glm::vec3 around(float radius, float y, float turns) {
     // Quarter turns have exact sines and cosines, so that the extents of shapes are exact.
     const auto exact = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(turns);
-    const auto c = static_cast<float>(exact(std::cos(angle)));
-    const auto s = static_cast<float>(exact(std::sin(angle)));
+    const SineCosine turn = sine_cosine(angle);
+    const auto c = static_cast<float>(exact(turn.cosine));
+    const auto s = static_cast<float>(exact(turn.sine));
     return {radius * s, y, radius * c};
 }
 

@@ -4,7 +4,7 @@
 // at the tip of its parent is raised by itself.
 #include "runtime/physics/impl/ground.h"
 
-#include "runtime/base/trigonometry.h"
+#include "grammar/base/trigonometry.h"
 
 #include <algorithm>
 #include <cmath>

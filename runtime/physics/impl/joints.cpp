@@ -24,7 +24,7 @@
 // the motion along the ground, with the force of this spring times Forces::friction; a step treats
 // friction as a damper. With Forces::own_load bases stand still and children are left out, so each
 // joint is solved separately.
-#include "runtime/base/trigonometry.h"
+#include "grammar/base/trigonometry.h"
 #include "runtime/physics/impl/motion.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // The zero vector converts to exactly the identity, and the identity to exactly the zero vector.
 #pragma once
 
-#include "runtime/base/trigonometry.h"
+#include "grammar/base/trigonometry.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

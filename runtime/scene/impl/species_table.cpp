@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/base/names.h"
 #include "grammar/base/paths.h"
+#include "grammar/base/trigonometry.h"
 #include "runtime/scene/impl/table_reader.h"
 #include "runtime/scene/impl/tables.h"
 
@@ -247,7 +248,8 @@ void read_placement(SpeciesReader& from) {
     }
     if (const auto slope = from.reader.number("slope", {0.0, 90.0, false, "degrees"});
         slope && *slope < 90.0) {
-        placement.steepest = float_of(std::tan(*slope * (std::numbers::pi / 180.0)));
+        const SineCosine turn = sine_cosine(*slope * (std::numbers::pi / 180.0));
+        placement.steepest = float_of(turn.sine / turn.cosine);
     }
 }
 

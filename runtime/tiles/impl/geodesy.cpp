@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tiles/impl/geodesy.h"
 
-#include "runtime/base/trigonometry.h"
+#include "grammar/base/trigonometry.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -19,15 +19,6 @@ constexpr double kF = 1.0 / 298.257223563; // flattening
 constexpr double kB = kA * (1.0 - kF);     // m, semi-minor axis
 constexpr double kE2 = kF * (2.0 - kF);    // square of the eccentricity
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-/// The angle in radians from the X axis to the point (x, y), -pi to pi.
-double angle_of(double y, double x) {
-    if (x >= 0.0) {
-        return arc_tangent(y, x);
-    }
-    const double mirrored = arc_tangent(y, -x);
-    return (y < 0.0 ? -std::numbers::pi : std::numbers::pi) - mirrored;
-}
 
 } // namespace
 
@@ -51,7 +42,7 @@ GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double
         std::sqrt((1.0 - kF) * (1.0 - kF) * sin_lat * sin_lat + cos_lat * cos_lat);
     const double sin_u = (1.0 - kF) * sin_lat / length;
     const double cos_u = cos_lat / length;
-    const double sigma_1 = angle_of(sin_u, cos_u * north);
+    const double sigma_1 = polar_angle(sin_u, cos_u * north);
     const double sin_alpha = cos_u * east; // sine of the azimuth at the equator
     const double cos2_alpha = 1.0 - sin_alpha * sin_alpha;
     const double u2 = cos2_alpha * (kA * kA - kB * kB) / (kB * kB);
@@ -80,9 +71,9 @@ GeoPlace along_geodesic(const GeoPlace& start, double east, double north, double
     cos_2m = sine_cosine(2.0 * sigma_1 + sigma).cosine;
     const double across = sin_u * at.sine - cos_u * at.cosine * north;
     const double latitude =
-        angle_of(sin_u * at.cosine + cos_u * at.sine * north,
-                 (1.0 - kF) * std::sqrt(sin_alpha * sin_alpha + across * across));
-    const double lambda = angle_of(at.sine * east, cos_u * at.cosine - sin_u * at.sine * north);
+        polar_angle(sin_u * at.cosine + cos_u * at.sine * north,
+                    (1.0 - kF) * std::sqrt(sin_alpha * sin_alpha + across * across));
+    const double lambda = polar_angle(at.sine * east, cos_u * at.cosine - sin_u * at.sine * north);
     const double c = kF / 16.0 * cos2_alpha * (4.0 + kF * (4.0 - 3.0 * cos2_alpha));
     const double turn =
         lambda -

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/turtle/impl/actions.h"
 
+#include "grammar/base/trigonometry.h"
 #include "runtime/turtle/surface_name.h"
 
 #include <algorithm>
@@ -87,7 +88,8 @@ HalfAngle half_angle(double degrees) {
     if (std::abs(turn) == 360.0) {
         return {-1.0, 0.0};
     }
-    return {std::cos(turn * kHalfDegree), std::sin(turn * kHalfDegree)};
+    const SineCosine half = sine_cosine(turn * kHalfDegree);
+    return {half.cosine, half.sine};
 }
 
 bool any_has(const Bytecode& bytecode, TurtleInfo::Trait trait) {

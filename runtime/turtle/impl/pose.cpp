@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/turtle/impl/pose.h"
 
+#include "grammar/base/trigonometry.h"
+#include "runtime/base/axis_rotation.h"
+
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/quaternion_geometric.hpp>
 #include <glm/ext/vector_double3.hpp>
@@ -50,7 +53,7 @@ void bend(Pose& pose, const std::array<float, 4>& tropism) {
         return;
     }
     const double angle = static_cast<double>(tropism[3]) * length;
-    set_frame(pose, glm::angleAxis(angle, axis / length) * frame);
+    set_frame(pose, rotation_about(axis / length, angle) * frame);
 }
 
 void aim(Pose& pose, const std::array<float, 3>& point) {
@@ -66,7 +69,7 @@ void aim(Pose& pose, const std::array<float, 3>& point) {
     const double sine = glm::length(axis);
     const double cosine = glm::dot(heading, direction / distance);
     if (sine > kVertical) {
-        set_frame(pose, glm::angleAxis(std::atan2(sine, cosine), axis / sine) * frame);
+        set_frame(pose, rotation_about(axis / sine, polar_angle(sine, cosine)) * frame);
     } else if (cosine < 0.0) { // half a turn about the right axis
         set_frame(pose, frame * glm::dquat(0.0, 1.0, 0.0, 0.0));
     }

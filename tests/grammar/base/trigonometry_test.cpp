@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares the trigonometry of runtime/base with the standard library in long double.
-#include "runtime/base/trigonometry.h"
+#include "grammar/base/trigonometry.h"
 
 #include <catch2/catch.hpp>
 
