@@ -4,41 +4,96 @@
 
 #include <lsys/messages.h>
 #include <lsys/word.h>
+#include <type_traits>
 #include <vector>
 
 namespace lsys_python {
 
+namespace {
+
+/// The value of a member as Python stores it: an enumerator as its number.
+template <typename Value>
+auto stored(const Value& value) {
+    if constexpr (std::is_enum_v<Value>) {
+        return static_cast<int>(value);
+    } else {
+        return value;
+    }
+}
+
+template <typename Value>
+void restore(Value& value, const py::handle& from) {
+    if constexpr (std::is_enum_v<Value>) {
+        value = static_cast<Value>(from.cast<int>());
+    } else {
+        value = from.cast<Value>();
+    }
+}
+
+/// Lets `pickle` copy objects with these public members, as process pools copy exceptions. The
+/// function `restorer` of the module makes an object of its members: the classes have no
+/// constructor.
+template <typename T, typename... Values>
+void add_pickle(py::module_& module,
+                py::class_<T>& type,
+                const char* restorer,
+                Values T::*... members) {
+    module.def(restorer, [members...](const py::args& state) {
+        if (state.size() != sizeof...(members)) {
+            throw py::value_error("pickled by another version of lsys");
+        }
+        T value;
+        std::size_t i = 0;
+        (restore(value.*members, state[i++]), ...);
+        return value;
+    });
+    type.def("__reduce__", [restorer, members...](const T& value) {
+        // `pickle` finds Python functions by name, but not functions of pybind11 2.10.
+        return py::make_tuple(py::module_::import("lsys.errors").attr("restored"),
+                              py::make_tuple(restorer, stored(value.*members)...));
+    });
+}
+
+} // namespace
+
 void bind_messages(py::module_& module) {
-    py::class_<lsys::Place>(module, "Place",
-                            "A range of characters of a file; the end is exclusive.")
-        .def_readonly("file", &lsys::Place::file)
+    py::class_<lsys::Place> place(module, "Place",
+                                  "A range of characters of a file; the end is exclusive.");
+    place.def_readonly("file", &lsys::Place::file)
         .def_readonly("line", &lsys::Place::line)
         .def_readonly("column", &lsys::Place::column)
         .def_readonly("end_line", &lsys::Place::end_line)
         .def_readonly("end_column", &lsys::Place::end_column)
         .def_readonly("offset", &lsys::Place::offset)
         .def_readonly("end_offset", &lsys::Place::end_offset)
-        .def("__repr__", [](const lsys::Place& place) {
-            return "Place(" + place.file + ":" + std::to_string(place.line) + ":" +
-                   std::to_string(place.column) + ")";
+        .def("__repr__", [](const lsys::Place& shown) {
+            return "Place(" + shown.file + ":" + std::to_string(shown.line) + ":" +
+                   std::to_string(shown.column) + ")";
         });
-    py::class_<lsys::Edit>(module, "Edit", "Replaces the text of a place.")
-        .def_readonly("place", &lsys::Edit::place)
+    add_pickle(module, place, "_restored_place", &lsys::Place::file, &lsys::Place::line,
+               &lsys::Place::column, &lsys::Place::end_line, &lsys::Place::end_column,
+               &lsys::Place::offset, &lsys::Place::end_offset);
+    py::class_<lsys::Edit> edit(module, "Edit", "Replaces the text of a place.");
+    edit.def_readonly("place", &lsys::Edit::place)
         .def_readonly("replacement", &lsys::Edit::replacement);
-    py::class_<lsys::Fix>(module, "Fix", "A repair: edits that are applied together.")
-        .def_readonly("title", &lsys::Fix::title)
+    add_pickle(module, edit, "_restored_edit", &lsys::Edit::place, &lsys::Edit::replacement);
+    py::class_<lsys::Fix> fix(module, "Fix", "A repair: edits that are applied together.");
+    fix.def_readonly("title", &lsys::Fix::title)
         .def_readonly("edits", &lsys::Fix::edits)
         .def_readonly("certain", &lsys::Fix::certain);
-    py::class_<lsys::Label>(module, "Label", "A further place of a diagnostic.")
-        .def_readonly("place", &lsys::Label::place)
-        .def_readonly("text", &lsys::Label::text);
-    py::class_<lsys::Diagnostic>(module, "Diagnostic", "A message with its place and repairs.")
+    add_pickle(module, fix, "_restored_fix", &lsys::Fix::title, &lsys::Fix::edits,
+               &lsys::Fix::certain);
+    py::class_<lsys::Label> label(module, "Label", "A further place of a diagnostic.");
+    label.def_readonly("place", &lsys::Label::place).def_readonly("text", &lsys::Label::text);
+    add_pickle(module, label, "_restored_label", &lsys::Label::place, &lsys::Label::text);
+    py::class_<lsys::Diagnostic> diagnostic(module, "Diagnostic",
+                                            "A message with its place and repairs.");
+    diagnostic
         .def_property_readonly("severity",
-                               [](const lsys::Diagnostic& diagnostic) {
-                                   return diagnostic.severity == lsys::Severity::Error ? "error"
-                                          : diagnostic.severity == lsys::Severity::Warning
-                                              ? "warning"
-                                              : "note";
+                               [](const lsys::Diagnostic& shown) {
+                                   return shown.severity == lsys::Severity::Error     ? "error"
+                                          : shown.severity == lsys::Severity::Warning ? "warning"
+                                                                                      : "note";
                                })
         .def_readonly("code", &lsys::Diagnostic::code)
         .def_readonly("message", &lsys::Diagnostic::message)
@@ -47,17 +102,21 @@ void bind_messages(py::module_& module) {
         .def_readonly("labels", &lsys::Diagnostic::labels)
         .def_readonly("notes", &lsys::Diagnostic::notes)
         .def_property_readonly("help",
-                               [](const lsys::Diagnostic& diagnostic) {
+                               [](const lsys::Diagnostic& shown) {
                                    std::vector<std::string> help;
-                                   for (const std::string& text : diagnostic.help) {
+                                   for (const std::string& text : shown.help) {
                                        help.push_back(with_argument_names(text));
                                    }
                                    return help;
                                })
         .def_readonly("fixes", &lsys::Diagnostic::fixes)
-        .def("__repr__", [](const lsys::Diagnostic& diagnostic) {
-            return "<Diagnostic " + diagnostic.code + ": " + diagnostic.message + ">";
+        .def("__repr__", [](const lsys::Diagnostic& shown) {
+            return "<Diagnostic " + shown.code + ": " + shown.message + ">";
         });
+    add_pickle(module, diagnostic, "_restored_diagnostic", &lsys::Diagnostic::severity,
+               &lsys::Diagnostic::code, &lsys::Diagnostic::message, &lsys::Diagnostic::place,
+               &lsys::Diagnostic::label, &lsys::Diagnostic::labels, &lsys::Diagnostic::notes,
+               &lsys::Diagnostic::help, &lsys::Diagnostic::fixes);
 }
 
 void bind_grammar(py::module_& module) {

@@ -2,6 +2,13 @@
 """Exceptions of the package."""
 
 
+def restored(restorer, *members):
+    """The message, or part of a message, that `pickle` copies. `restorer`: a function of `_lsys`."""
+    from . import _lsys
+
+    return getattr(_lsys, restorer)(*members)
+
+
 class LsysError(Exception):
     """A call has failed: a file cannot be read, an option is invalid.
 
