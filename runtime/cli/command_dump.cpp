@@ -3,6 +3,7 @@
 #include "compiler/instancing/instance.h"
 #include "compiler/program/program_dump.h"
 #include "grammar/ast/ast_dump.h"
+#include "grammar/base/paths.h"
 #include "grammar/format/tokens.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/dump_environment.h"
@@ -119,6 +120,31 @@ write_stage(const DumpCommand& command, const std::string& text, const Console& 
     return report_result(write_file(command.output, text, console), console);
 }
 
+/// Notes the files that a grammar names, so that the output replaces none of them. Without errors
+/// these are the files of its statements; else all names between quotes.
+void note_named_files(const DumpCommand& command, const std::string& text, const Console& console) {
+    if (command.output.empty() || command.output == "-") {
+        return;
+    }
+    const Outcome<Grammar> grammar =
+        load_grammar(command.file, command.grammar, make_project(console, command.run));
+    if (grammar) {
+        note_read(console.io().files, named_files(grammar.value().bytecode, command.file));
+        return;
+    }
+    std::vector<std::string> names;
+    const auto folder = path_of(command.file).parent_path();
+    for (std::size_t begin = text.find('"'); begin != std::string::npos;) {
+        const std::size_t end = text.find_first_of("\"\n", begin + 1);
+        if (end == std::string::npos) {
+            break;
+        }
+        names.push_back(path_text(folder / path_of(text.substr(begin + 1, end - begin - 1))));
+        begin = text.find('"', text[end] == '"' ? end + 1 : end);
+    }
+    note_read(console.io().files, names);
+}
+
 /// Prints the tokens or the syntax tree, even if the grammar has errors.
 ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
     const Project project = make_project(console, command.run);
@@ -139,6 +165,7 @@ ExitStatus dump_syntax(const DumpCommand& command, const Console& console) {
         !allowed) {
         return report_error(allowed.error(), console);
     }
+    note_named_files(command, grammar.bytes, console);
     SourceMap sources;
     Names names;
     Diagnostics diagnostics;

@@ -6,9 +6,11 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/import_table.h"
 #include "runtime/pipeline/grammar.h"
+#include "runtime/pipeline/named_files.h"
 #include "runtime/pipeline/value_edits.h"
 #include "runtime/program/files.h"
 #include "runtime/program/host.h"
+#include "runtime/program/run_files.h"
 
 #include <fmt/format.h>
 
@@ -108,6 +110,7 @@ ExitStatus import_text(const std::string& path,
     }
     const ExitStatus status =
         console.show(compiled_text.diagnostics, *compiled_text.grammar.sources);
+    note_read(console.io().files, named_files(compiled_text.grammar.bytecode, path));
     imported.warnings = compiled_text.diagnostics.count(Severity::Warning);
     imported.reason = first_error(compiled_text.diagnostics);
     if (status == ExitStatus::Ok) {

@@ -26,6 +26,11 @@ std::vector<std::string> named_files(const Bytecode& bytecode, const std::string
         add(std::string(picture_name(material.picture.path).path));
         add(material.normal.path);
     }
+    for (const BytecodeEnvironment& environment : bytecode.environments) {
+        for (const EnvironmentSurface& surface : environment.surfaces) {
+            add(surface.path);
+        }
+    }
     return paths;
 }
 

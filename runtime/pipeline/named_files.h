@@ -9,7 +9,8 @@
 
 namespace lsys {
 
-/// Paths of the source files of a grammar, and of the meshes and pictures that it names. `file`:
+/// Paths of the source files of a grammar, and of the meshes, maps and pictures that it
+/// names. `file`:
 /// path of the grammar, to whose folder the names are relative.
 [[nodiscard]] std::vector<std::string> named_files(const Bytecode& bytecode,
                                                    const std::string& file);

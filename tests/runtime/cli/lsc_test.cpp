@@ -98,7 +98,31 @@ TEST_CASE("no output replaces an input or another output") {
         CHECK(read_text(part) == "#define c 1;\n");
         CHECK(read_text(picture) == bytes);
     }
+    // These commands do not read the picture, but must not replace it either.
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"dump", grammar, "--stage", "tokens", "-o", picture},
+             {"dump", grammar, "--stage", "ast", "-o", picture},
+             {"dump", grammar, "--stage", "tokens", "-o", part}}) {
+        const LscRun refused = run_lsc(command, "");
+        CHECK(refused.status == 2);
+        CHECK(refused.err.find("it is an input of this command") != std::string::npos);
+        CHECK(read_text(picture) == bytes);
+        CHECK(read_text(part) == "#define c 1;\n");
+    }
+    write_text(grammar, text + "#p : A : * : F(;\n"); // with a mistake
+    CHECK(run_lsc({"dump", grammar, "--stage", "tokens", "-o", picture}, "").status == 2);
+    write_text(grammar, text);
     CHECK(folder.file_count() == 3);
+    for (const char* const name : {"birch.l", "birch.v", "birch.rgb"}) {
+        std::filesystem::copy_file(std::filesystem::path(LSYS_SOURCE_DIR) /
+                                       "samples/dialects/cpfg" / name,
+                                   folder.path() / name);
+    }
+    const std::string leaf = read_text(folder / "birch.rgb");
+    const LscRun imported = run_lsc({"import", folder / "birch.l", "-o", folder / "birch.rgb"}, "");
+    CHECK(imported.status == 2);
+    CHECK(imported.err.find("it is an input of this command") != std::string::npos);
+    CHECK(read_text(folder / "birch.rgb") == leaf);
     const std::string both = folder / "both";
     const LscRun twice =
         run_lsc({"dump", grammar, "--steps", "1", "--save-state", both, "-o", both}, "");
