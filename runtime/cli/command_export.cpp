@@ -132,7 +132,8 @@ ExitStatus export_growth(const ExportCommand& command,
 /// the most similar format name. Empty if none is similar.
 std::string nearest_output(const std::string& output) {
     const std::size_t dot = output.rfind('.');
-    if (dot == std::string::npos || dot < folder_of_path(output).size()) {
+    const bool is_hidden = path_text(path_of(output).filename()).rfind('.') == 0; // `.glb`
+    if (dot == std::string::npos || dot < folder_of_path(output).size() || is_hidden) {
         return {};
     }
     std::string ending = output.substr(dot + 1);

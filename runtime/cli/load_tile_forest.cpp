@@ -65,6 +65,7 @@ ExitStatus load_tile_forest(const TileScene& command,
         }
         trees = std::move(bytes.value());
         options.tree_file = trees;
+        options.tree_file_path = command.trees;
     } else if (placements == TilePlacements::OnGrids && !is_placed_by_tile(loaded.scene)) {
         return report_error(
             Error{"the trees of this scene cannot be placed tile by tile: its placement is not "

@@ -114,8 +114,7 @@ void TilesetFolder::make(std::uint64_t digest) {
         return;
     }
     if (record == TilesetRecord::NoTiles) {
-        const Result<TilesetRecord> begun =
-            begin_tileset_record(command_.output, digest, console_);
+        const Result<TilesetRecord> begun = begin_tileset_record(command_.output, digest, console_);
         if (!begun) {
             stop(begun.error());
         } else if (begun.value() != TilesetRecord::Same) {

@@ -192,7 +192,7 @@ Outcome<void> TileForest::State::read_trees(const Project& project) {
                                scene.terrain.region, grown.forest.species.size()};
     Result<LargeVector<Tree>> trees = read_tree_file(*options.tree_file, wanted);
     if (!trees) {
-        return step.fail(trees.error().message);
+        return step.fail(fmt::format("`{}`: {}", options.tree_file_path, trees.error().message));
     }
     grown.forest.trees = std::move(trees.value());
     return step.done();

@@ -54,6 +54,7 @@ struct TileOptions {
     /// Contents of a tree file of the scene (tree_file.h); nullopt: the trees of the scene are
     /// placed. The bytes must stay valid until make_tile_forest() returns.
     std::optional<std::string_view> tree_file;
+    std::string tree_file_path; // of `tree_file`, for messages
     MeshOptions mesh;
     std::string generator; // the program and its version
 };

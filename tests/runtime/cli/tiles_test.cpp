@@ -335,7 +335,8 @@ TEST_CASE("tiles of trees that were placed before are those of the scene") {
     CHECK(error_of({"--seed", "4"}).find(other) != std::string::npos);
     CHECK(error_of({"--count", "301"}).find(other) != std::string::npos);
     write_text(folder / "wood.trees", "trees");
-    CHECK(error_of({}).find("not a file of trees; `lsc place` writes one") != std::string::npos);
+    CHECK(error_of({}).find("wood.trees`: not a file of trees; `lsc place` writes one") !=
+          std::string::npos);
     CHECK_FALSE(fs::exists(folder.path() / "c/tileset.json"));
 }
 
