@@ -4,6 +4,7 @@
 #include "runtime/platform/memory.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -17,7 +18,7 @@ using platform::kHugePage;
 
 /// Max bytes of an arena on the heap: mapping pages for a small word takes longer than deriving it.
 constexpr std::size_t kMaxHeapArena = std::size_t{16} << 10;
-constexpr std::align_val_t kHeapAlignment{64}; // a cache line
+constexpr std::size_t kCacheLine = 64;
 /// Max bytes of an arena on small pages; larger arenas use huge pages.
 constexpr std::size_t kMaxSmallArena = std::size_t{1} << 20;
 /// Min bytes in use for which a huge page pays off: zeroing a huge page takes as long as zeroing a
@@ -27,13 +28,24 @@ constexpr std::size_t kMinHugePageUse = kHugePage / 3;
 constexpr std::size_t kLargeReservation = std::size_t{256} << 20;
 static_assert(kMaxSmallArena % platform::kPage == 0);
 
-/// Allocates memory that is zero, as mapped memory is. Returns null if there is no memory.
+/// Allocates memory that is zero, as mapped memory is, and begins at a cache line. Returns null if
+/// there is no memory. Allocates without alignment, because glibc 2.36 seldom uses aligned blocks
+/// again: a process that keeps small blocks between them would grow. The byte before the memory is
+/// its distance from the block.
 std::byte* allocate_on_heap(std::size_t bytes) {
-    void* const data = ::operator new(bytes, kHeapAlignment, std::nothrow);
-    if (data != nullptr) {
-        std::memset(data, 0, bytes);
+    void* const block = ::operator new(bytes + kCacheLine, std::nothrow);
+    if (block == nullptr) {
+        return nullptr;
     }
-    return static_cast<std::byte*>(data);
+    const std::size_t beyond = reinterpret_cast<std::uintptr_t>(block) % kCacheLine;
+    std::byte* const data = static_cast<std::byte*>(block) + (kCacheLine - beyond);
+    data[-1] = static_cast<std::byte>(kCacheLine - beyond);
+    std::memset(data, 0, bytes);
+    return data;
+}
+
+void free_on_heap(std::byte* data) {
+    ::operator delete(data - std::to_integer<std::size_t>(data[-1]));
 }
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) {
@@ -64,7 +76,7 @@ Arena& Arena::operator=(Arena&& other) noexcept {
 
 void Arena::release() {
     if (data_ != nullptr && capacity_ <= kMaxHeapArena) {
-        ::operator delete(data_, kHeapAlignment);
+        free_on_heap(data_);
     } else if (data_ != nullptr) {
         platform::release_memory(data_, capacity_);
     }

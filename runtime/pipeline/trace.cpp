@@ -142,6 +142,12 @@ private:
         std::string sense_state;
     };
 
+    static std::uint64_t bytes_of(const StoredWord& stored) {
+        constexpr std::uint64_t kMinBytes = 32 << 10; // two arrays of 16 KiB or more (arena.cpp)
+        return std::max(stored.word.held_bytes(), kMinBytes) + stored.sense_state.size() +
+               sizeof(StoredWord);
+    }
+
     /// Stores a copy of the word if its age is a multiple of stride_. If the copies take more than
     /// a quarter of the memory limit, doubles stride_ and drops every other copy.
     void keep(const Derivation& derivation) {
@@ -153,19 +159,17 @@ private:
             return;
         }
         stored_words_.push_back({derivation.age(), std::move(*copy), derivation.sense_state()});
-        const auto too_much = [this] {
-            std::uint64_t bytes = 0;
-            for (const StoredWord& each : stored_words_) {
-                bytes += each.word.held_bytes() + each.sense_state.size();
-            }
-            return bytes > derive_.limits.max_bytes / 4;
-        };
-        while (stored_words_.size() > 1 && too_much()) {
+        stored_bytes_ += bytes_of(stored_words_.back());
+        while (stored_words_.size() > 1 && stored_bytes_ > derive_.limits.max_bytes / 4) {
             stride_ *= 2;
             stored_words_.erase(
                 std::remove_if(stored_words_.begin(), stored_words_.end(),
                                [this](const StoredWord& each) { return each.age % stride_ != 0; }),
                 stored_words_.end());
+            stored_bytes_ = 0;
+            for (const StoredWord& each : stored_words_) {
+                stored_bytes_ += bytes_of(each);
+            }
         }
     }
 
@@ -520,6 +524,7 @@ private:
     std::string sense_state_;              // state of the environments at the traced generation
     std::vector<TracedModule> next_;       // what the traced modules become, in their order
     std::vector<StoredWord> stored_words_; // by ascending age
+    std::uint64_t stored_bytes_ = 0;       // memory of stored_words_
     std::uint32_t stride_ = 1;             // ages of stored words are multiples of this number
 };
 

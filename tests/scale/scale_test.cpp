@@ -117,6 +117,7 @@ struct Case {
     const char* out = "/dev/null";
     std::string stray{}; // must occur in the command line of no process afterwards; empty: no check
     double max_seconds = kMaxSeconds; // processor time
+    long max_kib = kMaxKib;           // peak of memory
 };
 
 /// Writes a flat grid of `side` * `side` squares, 1 m wide, around the origin.
@@ -189,6 +190,11 @@ void add_hostile_cases(std::map<std::string, Case>& all) {
         {"export", "--max-time", "1", "%", "-o", "/dev/null", "--format", "stl"}, 3, late);
     add("device", "#n = 0;\n#w : Q;\n#object Q \"/dev/zero\";\n",
         {"export", "--untrusted", "%", "-o", "/dev/null", "--format", "stl"}, 1, "only files in");
+    add("trace", "#n = 1;\n#w : F(1);\n#p : F(x) : * : F(x+1);\n",
+        {"trace", "--max-memory", "20M", "-n", "20000", "--at", "0", "--back", "%", "-o",
+         "/dev/null"},
+        0, "");
+    all["hostile-trace"].max_kib = 100 * 1024;
     add("include-device", "#n = 0;\n#w : Q;\n#include \"/dev/zero\";\n",
         {"check", "--untrusted", "%"}, 1, "only files in");
 }
@@ -459,7 +465,7 @@ int main(int argc, char** argv) {
     };
     expect(result.status == wanted.status, "exit status");
     expect(result.errors.find(wanted.message) != std::string::npos, wanted.message.c_str());
-    expect(kInstrumented || result.peak_kib <= kMaxKib, "peak memory");
+    expect(kInstrumented || result.peak_kib <= wanted.max_kib, "peak memory");
     expect(wanted.stray.empty() || !is_running(wanted.stray), "a process is left");
     expect(result.seconds <= wanted.max_seconds * (kInstrumented ? kInstrumentedFactor : 1.0),
            "time");
