@@ -36,11 +36,12 @@ Outcome<void> nothing_to_draw(ExportSubject subject) {
                                     name_of(subject)))};
 }
 
-Outcome<void> too_large_for_format(ExportSubject subject) {
-    const char* const help = subject == ExportSubject::Plant
-                                 ? "; another format, fewer sides or a coarser --level may hold it"
-                                 : "";
-    return {Stop::Failed,
+Outcome<void> too_large_for_format(ExportSubject subject, bool has_frames) {
+    const char* const help = subject != ExportSubject::Plant ? ""
+                             : has_frames
+                                 ? "; another format, fewer frames or a coarser --level may hold it"
+                                 : "; another format, fewer sides or a coarser --level may hold it";
+    return {Stop::Limit,
             messages_of(fmt::format("the {} is larger than a file of this format can be{}",
                                     name_of(subject), help))};
 }

@@ -16,7 +16,8 @@ namespace lsys {
 [[nodiscard]] Messages messages_of(Diagnostic diagnostic);
 [[nodiscard]] Messages messages_of(std::string error);
 Outcome<void> nothing_to_draw(ExportSubject subject);
-Outcome<void> too_large_for_format(ExportSubject subject);
+/// Limit: a file of the format has a max size. `has_frames`: the plant moves or grows.
+Outcome<void> too_large_for_format(ExportSubject subject, bool has_frames = false);
 /// Limit: a skin of more than kMaxJoints joints.
 Outcome<void> too_many_joints();
 /// Success, or Cancelled if the sink has stopped.

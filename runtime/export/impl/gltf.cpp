@@ -302,6 +302,10 @@ Outcome<Contents> refused(Outcome<void> refusal) {
     return {refusal.stop(), std::move(refusal.messages())};
 }
 
+bool has_frames(const ExportInfo& info) {
+    return info.film != nullptr || info.animation != nullptr;
+}
+
 Outcome<Contents> plan(const ExportJob& job, const MeshOrder* order) {
     const ExportInfo& info = job.info;
     Contents contents;
@@ -311,7 +315,7 @@ Outcome<Contents> plan(const ExportJob& job, const MeshOrder* order) {
                                        : info.compression == ExportCompression::Quantize ? 12
                                                                                          : 0;
     if (job.mesh.positions.size() * vertex_bytes > kMaxGltfBytes) {
-        return refused(too_large_for_format(info.subject));
+        return refused(too_large_for_format(info.subject, has_frames(info)));
     }
     if (info.animation != nullptr && info.max_joints != 0) {
         contents.motion.emplace(GltfMotion{
@@ -338,7 +342,7 @@ Outcome<Contents> plan(const ExportJob& job, const MeshOrder* order) {
         contents.collision.shapes = make_collision(job.skeleton, info);
     }
     if (contents.bytes() > kMaxGltfBytes || contents.buffer.decoded_bytes > kMaxGltfBytes) {
-        return refused(too_large_for_format(info.subject));
+        return refused(too_large_for_format(info.subject, has_frames(info)));
     }
     return {std::move(contents), {}};
 }
@@ -366,7 +370,8 @@ Outcome<void> write(const ExportJob& job, bool binary, PieceWriter& out) {
         write_gltf_streams(contents.plant(job), buffer, write_bytes);
         write_collision(contents.collision, write_bytes);
     };
-    return put_gltf_file(file, out) ? finish(out) : too_large_for_format(job.info.subject);
+    return put_gltf_file(file, out) ? finish(out)
+                                    : too_large_for_format(job.info.subject, has_frames(job.info));
 }
 
 /// Makes a document of `mesh`. `order`: the order of the mesh; null: it is computed.
