@@ -504,8 +504,7 @@ Diagnostic limit_diagnostic(const LimitReport& report,
                                            report.generation, grouped_digits(report.modules)));
     std::string help = fmt::format("ask for fewer generations: `-n {}`", report.generation);
     if (!no_memory && !is_countless) { // no limit is so high
-        help += modules ? fmt::format(", or raise the limit: `--max-modules {}`",
-                                      report.predicted_modules)
+        help += modules ? ", or raise the limit with `--max-modules`"
                         : ", or raise the limit with `--max-memory`";
     }
     if (!modules && !streaming_obstacle(bytecode)) {

@@ -81,9 +81,9 @@ Result<Dialect> dialect_of(const std::string& path,
     return *detected.dialect;
 }
 
-/// The error of a -D that names no constant, with the nearest name that exists.
+/// The error of a new value for a constant that does not exist, with the nearest name that exists.
 Error unknown_definition(const std::string& name, const Grammar& grammar) {
-    std::string text = fmt::format("-D {}: the grammar has no #define or #param `{}`", name, name);
+    std::string text = fmt::format("the grammar has no #define or #param `{}`", name);
     if (grammar.program) {
         std::vector<std::string_view> known;
         for (const Constant& constant : grammar.program->constants) {

@@ -186,8 +186,8 @@ void DefinitionResolver::check_bounds(const ParamNode& node, const Constant& con
     Diagnostic& error = resolution_.diagnostics.add(
         DiagnosticCode::BadParameterBounds,
         replaced ? node.name_span : resolution_.ast.expression(node.value).span(),
-        fmt::format("{}{} is outside the bounds {} to {} of `{}`", definition.value,
-                    replaced ? ", given by -D," : "", constant.minimum, constant.maximum,
+        fmt::format("{}{} is outside the bounds {} to {} of `{}`", replaced ? "the new value " : "",
+                    definition.value, constant.minimum, constant.maximum,
                     resolution_.text(node.name)));
     error.labels.push_back({node.bounds_span, "the bounds"});
 }

@@ -109,7 +109,7 @@ TEST_CASE("a parameter must be within its bounds") {
     const test::Compiled c = compile_text("#param a 2 {1, 3};\n#w : F(a);\n", options);
     CHECK(c.reports() == Reports{"bad-parameter-bounds 1:8"});
     CHECK(c.message(DiagnosticCode::BadParameterBounds) ==
-          "9, given by -D, is outside the bounds 1 to 3 of `a`");
+          "the new value 9 is outside the bounds 1 to 3 of `a`");
     const test::Compiled drawn = compile_text("#param a {0, 9} {1, 3};\n#w : F(a);\n");
     REQUIRE(drawn.outcome.bytecode);
     CHECK(drawn.outcome.bytecode->globals[0].has_bounds);
