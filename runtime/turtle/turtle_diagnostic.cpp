@@ -84,26 +84,48 @@ bool ends_drawing(TurtleFaultKind kind) {
            kind == TurtleFaultKind::TooMany || kind == TurtleFaultKind::EndOutside;
 }
 
-/// Notes the production that writes modules of this symbol, if only one production does.
-void note_writer(Code code, const Bytecode& bytecode, Diagnostic& diagnostic) {
-    std::optional<std::uint32_t> found;
+/// The productions that write modules of this symbol, each with the place where it does so first.
+std::vector<std::pair<ProductionId, Site>> writers_of(Code code, const Bytecode& bytecode) {
+    std::vector<std::pair<ProductionId, Site>> writers;
     for (std::uint32_t i = 0; i < bytecode.template_codes.size(); ++i) {
-        if (bytecode.symbol_of(bytecode.template_codes[i]) == bytecode.symbol_of(code)) {
-            if (found && production_with(bytecode, i) != production_with(bytecode, *found)) {
-                return;
-            }
-            found = found.value_or(i);
+        if (bytecode.symbol_of(bytecode.template_codes[i]) != bytecode.symbol_of(code)) {
+            continue;
+        }
+        const ProductionId writer = production_with(bytecode, i);
+        const std::optional<Site> site = place_of(bytecode, i);
+        if (writer == kNoProduction || !site) {
+            return {}; // the axiom writes it, too
+        }
+        if (writers.empty() || writers.back().first != writer) {
+            writers.emplace_back(writer, *site);
         }
     }
-    const ProductionId writer = found ? production_with(bytecode, *found) : kNoProduction;
-    const std::optional<Site> site = found ? place_of(bytecode, *found) : std::nullopt;
-    if (writer == kNoProduction || !site) {
+    return writers;
+}
+
+/// Notes the productions that write modules of this symbol, if they are few.
+void note_writers(Code code, const Bytecode& bytecode, Diagnostic& diagnostic) {
+    constexpr std::size_t kMaxWriters = 4;
+    const auto writers = writers_of(code, bytecode);
+    if (writers.empty() || writers.size() > kMaxWriters) {
         return;
     }
-    const BytecodeProduction& production = bytecode.productions[static_cast<std::size_t>(writer)];
-    diagnostic.notes.push_back(fmt::format(
-        "production `{}` writes it: {}:{}:{}", production.name,
-        bytecode.files[static_cast<std::size_t>(site->span.file)], site->line, site->column));
+    const auto text_of = [&](const std::pair<ProductionId, Site>& written) {
+        const Site& site = written.second;
+        return fmt::format("`{}` writes it: {}:{}:{}",
+                           bytecode.productions[static_cast<std::size_t>(written.first)].name,
+                           bytecode.files[static_cast<std::size_t>(site.span.file)], site.line,
+                           site.column);
+    };
+    if (writers.size() > 1) {
+        for (const auto& writer : writers) {
+            diagnostic.notes.push_back("perhaps production " + text_of(writer));
+        }
+        return;
+    }
+    diagnostic.notes.push_back("production " + text_of(writers.front()));
+    const BytecodeProduction& production =
+        bytecode.productions[static_cast<std::size_t>(writers.front().first)];
     const SymbolId own = bytecode.patterns[production.predecessor.first].symbol;
     const bool repeats =
         std::any_of(bytecode.template_codes.begin() + production.successor.codes.first,
@@ -150,7 +172,7 @@ turtle_diagnostics(const std::array<TurtleFault, kTurtleFaultKindCount>& faults,
                             fmt::format("module {} of the word, a `{}`, {}",
                                         grouped_digits(fault.position), name, wording.what));
         diagnostic.severity = ends_drawing(kind) ? Severity::Error : Severity::Warning;
-        note_writer(fault.code, bytecode, diagnostic);
+        note_writers(fault.code, bytecode, diagnostic);
         diagnostic.notes.emplace_back("modules are counted from 0");
         if (fault.count > 1) {
             diagnostic.notes.push_back(
