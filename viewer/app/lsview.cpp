@@ -50,7 +50,7 @@ ExitStatus make_renderer(const ViewOptions& options, const Console& console, Hid
     Result<std::unique_ptr<Renderer>> renderer =
         Renderer::make(shaders_of(options.shaders, console));
     if (!renderer) {
-        return report_error(renderer.error(), console);
+        return report_error(shader_error(options.shaders, renderer.error()), console);
     }
     made.renderer = std::move(renderer.value());
     made.renderer->set_culling(options.culling);

@@ -21,13 +21,16 @@ make(const LoadRequest& request, const std::atomic<bool>& cancelled, MakingProgr
     outcome.changed_at = request.changed_at;
     outcome.files = {request.options.file};
     const LoadLimit limit(request.options.run.max_seconds, cancelled);
-    Project project{
-        record_files(make_file_host(limit.stop(), request.options.run.files), outcome.files),
-        request.options.run.limits,
-        request.options.run.threads,
-        {},
-        request.options.run.environments,
-        request.options.run.files};
+    Host host = make_file_host(limit.stop(), request.options.run.files);
+    if (request.is_repeat) {
+        host.read_file = host.read_referenced_file; // a pipe in place of the file could block
+    }
+    Project project{record_files(std::move(host), outcome.files),
+                    request.options.run.limits,
+                    request.options.run.threads,
+                    {},
+                    request.options.run.environments,
+                    request.options.run.files};
     progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {

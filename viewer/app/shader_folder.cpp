@@ -3,6 +3,8 @@
 
 #include "runtime/program/files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -21,6 +23,11 @@ ShaderSource shaders_of(const std::string& folder, const Console& console) {
             read_file((std::filesystem::path(folder) / name).string(), {kMaxBytes}, console);
         return text ? std::optional(std::move(text.value())) : std::nullopt;
     };
+}
+
+Error shader_error(const std::string& folder, const Error& error) {
+    return folder.empty() ? error
+                          : Error{fmt::format("in the folder `{}`: {}", folder, error.message)};
 }
 
 std::vector<std::string> shader_files(const std::string& folder) {

@@ -96,7 +96,8 @@ bool View::reload_shaders() {
         return false;
     }
     const Result<void> loaded = renderer_->reload(shaders_of(options_.shaders, console_));
-    shader_message_ = loaded ? std::string() : loaded.error().message;
+    shader_message_ =
+        loaded ? std::string() : shader_error(options_.shaders, loaded.error()).message;
     if (loaded) {
         console_.detail("loaded the shaders");
     } else {

@@ -244,7 +244,7 @@ ExitStatus run_window(const ViewOptions& options, const Console& console) {
     Result<std::unique_ptr<Renderer>> renderer =
         Renderer::make(shaders_of(options.shaders, console));
     if (!renderer) {
-        return report_error(renderer.error(), console);
+        return report_error(shader_error(options.shaders, renderer.error()), console);
     }
     renderer.value()->set_culling(options.culling);
     console.detail(fmt::format("drawing by a window: {}", renderer.value()->device_name()));

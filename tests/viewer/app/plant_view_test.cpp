@@ -14,6 +14,10 @@
 #include <sstream>
 #include <thread>
 
+#ifndef _WIN32
+#include <sys/stat.h>
+#endif
+
 using namespace lsys;
 using namespace lsys::tests;
 using namespace lsys::view;
@@ -110,6 +114,27 @@ TEST_CASE("a hundred reloads leak no objects of the renderer") {
     CHECK(viewed.renderer->live_objects() == objects);
     CHECK(viewed.renderer->errors().empty());
 }
+
+#ifndef _WIN32
+TEST_CASE("a pipe in place of the file is reported, and the next file is shown") {
+    const ScratchFolder folder;
+    const std::string file = folder / "plant.lsys";
+    write_text(file, plant(2));
+    ViewedPlant viewed(plant_options(file));
+    REQUIRE(viewed.until_swaps(1));
+    std::this_thread::sleep_for(100ms); // until the watch has begun
+    std::filesystem::remove(file);
+    REQUIRE(mkfifo(file.c_str(), 0600) == 0);
+    viewed.view.reload();
+    REQUIRE(viewed.until([&] {
+        return viewed.view.messages().find("it is not a regular file") != std::string::npos;
+    }));
+    std::filesystem::remove(file);
+    write_text(file, plant(9));
+    REQUIRE(viewed.until([&] { return viewed.view.document()->plant.modules == 9; }));
+    CHECK_FALSE(viewed.view.failed());
+}
+#endif
 
 TEST_CASE("a changed file is shown, and a file with errors does not change the picture") {
     const ScratchFolder folder;
