@@ -5,10 +5,12 @@ Usage: python3 test_lsys.py LSC SAMPLES [unittest options], with the module on P
 """
 
 import contextlib
+import copy
 import gc
 import importlib.util
 import io
 import os
+import pickle
 import re
 import signal
 import subprocess
@@ -265,6 +267,27 @@ class Errors(unittest.TestCase):
         for options in ({"max_seconds": None}, {"max_seconds": "1"}, {"untrusted": "yes"}):
             with self.assertRaisesRegex(TypeError, f"{next(iter(options))} is"):
                 grammar.derive(**options)
+        for seconds in (-1.0, float("nan")):
+            with self.assertRaisesRegex(lsys.LsysError, "max_seconds is neither 0"):
+                grammar.derive(max_seconds=seconds)
+
+    def test_errors_are_pickled(self):
+        with self.assertRaises(lsys.GrammarError) as caught:
+            lsys.compile(text="#n=1\n#w : F;\n")
+        error = caught.exception
+        for copied in (pickle.loads(pickle.dumps(error)), copy.deepcopy(error)):
+            self.assertIs(type(copied), lsys.GrammarError)
+            self.assertEqual(str(copied), str(error))
+            one, other = error.diagnostics[0], copied.diagnostics[0]
+            for name in ("severity", "code", "message", "label", "notes", "help"):
+                self.assertEqual(getattr(one, name), getattr(other, name))
+            self.assertEqual(repr(one.place), repr(other.place))
+            self.assertEqual(other.place.end_offset, one.place.end_offset)
+            self.assertEqual(other.fixes[0].edits[0].replacement, ";")
+            self.assertEqual(other.fixes[0].certain, one.fixes[0].certain)
+        with self.assertRaisesRegex(ValueError, "another version"):
+            function, members = error.diagnostics[0].place.__reduce__()
+            function(*members[:-1])
 
     def test_no_objects_without_values(self):
         for name in ("Grammar", "Word", "Plant", "Mesh", "Instances"):

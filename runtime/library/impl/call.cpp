@@ -107,6 +107,10 @@ Call::Call(const Project& project, std::vector<std::string> named, const Policy&
 
 void Call::apply_policy(std::vector<std::string> named) {
     const Policy& policy = policy_;
+    if (!(policy.max_seconds >= 0.0)) {
+        refusal_ = "max_seconds is neither 0, for no limit, nor a number of seconds above 0";
+        return;
+    }
     max_seconds_ = policy.max_seconds > 0.0 ? policy.max_seconds
                    : policy.untrusted       ? kUntrustedSeconds
                                             : 0.0;
