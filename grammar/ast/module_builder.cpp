@@ -20,7 +20,7 @@ constexpr std::array<CharacterClass, 128> kClasses = [] {
     std::array<CharacterClass, 128> classes{};
     classes.fill(CharacterClass::Symbol);
     for (const char c : {' ', '\t', '\r', '\n'}) {
-        classes[static_cast<std::size_t>(c)] = CharacterClass::Blank;
+        classes[static_cast<unsigned char>(c)] = CharacterClass::Blank;
     }
     for (std::size_t c = 0; c < 128; ++c) {
         if (is_letter(static_cast<char>(c))) {

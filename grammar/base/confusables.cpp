@@ -267,7 +267,7 @@ constexpr auto kAscii = [] {
 }();
 
 std::string_view text_of(char ascii) {
-    return {&kAscii[static_cast<std::size_t>(ascii)], 1};
+    return {&kAscii[static_cast<unsigned char>(ascii)], 1};
 }
 
 } // namespace

@@ -28,7 +28,7 @@ Diagnostic& report_value_count(Resolution& resolution,
 }
 
 std::string path_from_root(const Resolution& resolution, const SetValue& file) {
-    const std::string name(resolution.text(file.word));
+    std::string name(resolution.text(file.word));
     const FileId root = resolution.ast.files[0].file;
     const auto folder_of = [&](FileId id) {
         return std::string(folder_of_path(resolution.sources.file(id).path()));
