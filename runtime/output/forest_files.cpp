@@ -27,7 +27,12 @@ constexpr std::uint32_t kGroundCells = 128; // cells of the ground mesh per side
 /// Adds pictures as files in the folder of `path`.
 ExitStatus add_pictures(const std::vector<PictureFile>& pictures,
                         const std::string& path,
+                        const ForestOutput& run,
                         OutputSet& outputs) {
+    const std::string prefix = path_text(path_of(run.options.output).stem());
+    if (const Result<void> named = check_picture_names(pictures, prefix); !named) {
+        return report_error(named.error(), run.context.console);
+    }
     for (const PictureFile& picture : pictures) {
         const std::string beside = path_text(path_of(path).parent_path() / path_of(picture.name));
         const ExitStatus added = outputs.add(
@@ -77,7 +82,7 @@ ExitStatus write_instances(const ForestOutput& run,
         if (status != ExitStatus::Ok) {
             return status;
         }
-        if (const ExitStatus added = add_pictures(pictures, path, outputs);
+        if (const ExitStatus added = add_pictures(pictures, path, run, outputs);
             added != ExitStatus::Ok) {
             return added;
         }
@@ -122,7 +127,7 @@ ExitStatus write_baked(const ForestOutput& run,
         status =
             run.context.console.take(make_picture_files(mesh, run.target.format, info), pictures);
         if (status == ExitStatus::Ok) {
-            status = add_pictures(pictures, path, outputs);
+            status = add_pictures(pictures, path, run, outputs);
         }
         if (status == ExitStatus::Ok && format.has_mtl) {
             const std::filesystem::path library = path_of(path).replace_extension(".mtl");

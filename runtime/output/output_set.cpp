@@ -22,17 +22,38 @@ bool OutputContext::can_write_beside(const std::string& path) const {
                            kind == std::filesystem::file_type::regular);
 }
 
+namespace {
+
+/// Whether a text is UTF-8 without control characters, so that it can stand in a line.
+bool is_line_of_text(std::string_view text) {
+    while (!text.empty()) {
+        const CodePoint first = decode_utf8(text);
+        if (!first.valid || first.value < 0x20 || first.value == 0x7F) {
+            return false;
+        }
+        text.remove_prefix(first.length);
+    }
+    return true;
+}
+
+} // namespace
+
 Result<std::string> mtl_name(const std::filesystem::path& path) {
     std::string name = path_text(path.filename());
-    for (std::string_view rest = name; !rest.empty();) {
-        const CodePoint first = decode_utf8(rest);
-        if (!first.valid || first.value < 0x20 || first.value == 0x7F) {
-            return Error{"the name of an OBJ file is UTF-8 without control characters, because the "
-                         "file names its .mtl file in a line of text"};
-        }
-        rest.remove_prefix(first.length);
+    if (!is_line_of_text(name)) {
+        return Error{"the name of an OBJ file is UTF-8 without control characters, because the "
+                     "file names its .mtl file in a line of text"};
     }
     return name;
+}
+
+Result<void> check_picture_names(const std::vector<PictureFile>& pictures,
+                                 const std::string& prefix) {
+    if (!pictures.empty() && !is_line_of_text(prefix)) {
+        return Error{"the name of a file with pictures beside it is UTF-8 without control "
+                     "characters, because the names of the pictures begin with it"};
+    }
+    return {};
 }
 
 ExitStatus OutputSet::add(const std::string& path,

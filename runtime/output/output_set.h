@@ -42,6 +42,11 @@ struct OutputContext {
 /// with control characters or bytes that are not UTF-8, which OBJ cannot express.
 [[nodiscard]] Result<std::string> mtl_name(const std::filesystem::path& path);
 
+/// An Error if `prefix`, the name of the output without its extension, cannot begin the names of
+/// pictures beside it: the pictures of two outputs could have one name.
+[[nodiscard]] Result<void> check_picture_names(const std::vector<PictureFile>& pictures,
+                                               const std::string& prefix);
+
 class OutputSet {
 public:
     /// `context` must outlive the set.

@@ -43,6 +43,9 @@ ExitStatus add_side_files(PlantRun& run,
     if (status != ExitStatus::Ok) {
         return status;
     }
+    if (const Result<void> named = check_picture_names(pictures, info.picture_prefix); !named) {
+        return report_error(named.error(), run.context.console);
+    }
     for (const PictureFile& picture : pictures) {
         if (!run.pictures.insert(picture.name).second) {
             continue;

@@ -107,6 +107,14 @@ TEST_CASE("an OBJ file whose name does not fit into a line of text is refused") 
         CHECK(run.status == 2);
         CHECK(run.err.find("is UTF-8 without control characters") != std::string::npos);
     }
+    // The pictures of two files could have one name.
+    for (const char* const name : {"a\tb.usda", "a\tb.obj"}) {
+        CHECK(run_lsc({"export", folder / "a.lsys", "-o", folder / name}, "").status == 2);
+        CHECK(run_lsc({"forest", folder / "a.lsys", "--count", "1", "-q", "--bake", "-o",
+                       folder / name},
+                      "")
+                  .status == 2);
+    }
     CHECK(folder.file_count() == 1);
     CHECK(run_lsc({"export", folder / "a.lsys", "-o", folder / "né b.obj"}, "").status == 0);
     CHECK(read_text(folder / "né b.obj").find("mtllib né b.mtl\n") != std::string::npos);
