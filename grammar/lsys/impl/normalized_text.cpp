@@ -9,7 +9,6 @@
 #include "grammar/lsys/impl/scanning.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace lsys {
 
@@ -319,7 +318,7 @@ int normalize_character(ParseSession& session, char* character, int length) {
         close_quotes(session, begin + static_cast<std::uint32_t>(length), character + length);
     }
     const auto size = static_cast<int>(ascii.size());
-    std::memcpy(character + length - size, ascii.data(), ascii.size());
+    std::copy(ascii.begin(), ascii.end(), character + length - size);
     return length - size;
 }
 

@@ -539,7 +539,7 @@ std::optional<std::string> production_for(std::string_view line, RuleNames& name
     const std::size_t colon = head.find(':');
     const std::string_view first = head.substr(0, std::min(colon, head.size()));
     std::string condition = "*";
-    const bool has_label = colon != std::string_view::npos && leading_word(first).size() >= 1 &&
+    const bool has_label = colon != std::string_view::npos && !leading_word(first).empty() &&
                            stripped(first) == leading_word(first) &&
                            first.find('(') == std::string_view::npos;
     if (has_label) {
