@@ -15,8 +15,8 @@
 
 namespace lsys {
 
-/// Returns the bytes of the file at a path; its Error is reported at the #include. For a folder, a
-/// path that ends with `/`, returns the names of its files, sorted, one per line.
+/// Returns the bytes of the file at a path; its Error is reported at the #include. For a path of
+/// folder_list.h, returns the names of the files of a folder, sorted, one per line.
 using FileLoader = std::function<Result<std::string>(const std::string& path)>;
 
 /// Inputs and outputs of one parse. All references must outlive the parse.

@@ -3,6 +3,7 @@
 
 #include "compiler/bytecode/module_file.h"
 #include "compiler/compile.h"
+#include "grammar/ast/folder_list.h"
 #include "grammar/base/cancellation.h"
 #include "grammar/base/message_levels.h"
 #include "grammar/base/paths.h"
@@ -184,8 +185,10 @@ FileLoader make_loader(const Project& project, std::uint64_t max_bytes) {
             left = max_bytes, policy_left = files.max_included_bytes,
             max_policy_bytes = files.max_included_bytes, max_files = files.max_included_files,
             count = std::uint64_t{0}](const std::string& path) mutable -> Result<std::string> {
-        if (list && path.ends_with('/')) {
-            return fmt::format("{}", fmt::join(list(path), "\n"));
+        if (path.ends_with(kListEnd)) {
+            const std::string folder = path.substr(0, path.size() - 1);
+            return list ? Result<std::string>(fmt::format("{}", fmt::join(list(folder), "\n")))
+                        : Error{"no folder is listed here"};
         }
         if (++count > max_files) {
             return Error{fmt::format("more than {} files are included, the maximum for grammars "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/dialects/cpfg/view_files.h"
 
+#include "grammar/ast/folder_list.h"
 #include "grammar/ast/reports.h"
 #include "grammar/base/characters.h"
 #include "grammar/base/paths.h"
@@ -91,7 +92,7 @@ CpfgFiles find_cpfg_files(std::string_view path, const ParseContext& context) {
     const auto specifications = context.load(folder + "specifications");
     const Named named =
         specifications ? read_specifications(specifications.value(), name) : Named{};
-    const auto listed = context.load(folder.empty() ? "./" : folder);
+    const auto listed = context.load(list_of(folder));
     const std::string_view names = listed ? std::string_view(listed.value()) : "";
     const std::string_view stem = name.substr(0, std::min(name.rfind('.'), name.size()));
     if (!context.view.empty()) {
