@@ -71,6 +71,11 @@ def results_of_web(paths):
     return [tuple(json.loads(line)) for line in run.stdout.decode().splitlines()]
 
 
+def are_equal(wanted, found):
+    """Whether two results are equal. An environment without an answer may hide a limit, or be hidden by it."""
+    return wanted == found or (wanted == ("errors", ["sense-failed"]) and found == ("limit",))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lsc", type=os.path.abspath)
@@ -94,7 +99,7 @@ def main():
             found = results_of_web(paths) if options.web else map(result_of_module, paths)
             for path, wanted, result in zip(paths, expected, found):
                 counts[wanted[0]] += 1
-                if wanted != result:
+                if not are_equal(wanted, result):
                     different += 1
                     os.makedirs(kept, exist_ok=True)
                     name = f"{seed}-{os.path.basename(path)}"
