@@ -56,10 +56,9 @@ struct OptionName {
     std::string_view member;
 };
 constexpr OptionName kOptionNames[] = {
-    {"`--max-modules ", "`Limits::max_modules = "}, // followed by a number
-    {"`--max-modules`", "`Limits::max_modules`"},   {"`--max-memory`", "`Limits::max_bytes`"},
-    {"`--max-output`", "`Policy::max_output`"},     {"`--max-time`", "`Policy::max_seconds`"},
-    {"`--sides`", "`MeshOptions::sides`"},          {"`-n ", "`GrammarOptions::generations = "},
+    {"`--max-modules`", "`Limits::max_modules`"}, {"`--max-memory`", "`Limits::max_bytes`"},
+    {"`--max-output`", "`Policy::max_output`"},   {"`--max-time`", "`Policy::max_seconds`"},
+    {"`--sides`", "`MeshOptions::sides`"},        {"`-n ", "`GrammarOptions::generations = "},
     {"`-n`", "`GrammarOptions::generations`"},
 };
 

@@ -43,7 +43,6 @@ py::object error_class(lsys::Status status) {
 
 std::string with_argument_names(std::string text) {
     constexpr std::pair<std::string_view, std::string_view> kNames[] = {
-        {"`Limits::max_modules = ", "`max_modules="},
         {"`Limits::max_modules`", "`max_modules=`"},
         {"`Limits::max_bytes`", "`max_bytes=`"},
         {"`Policy::max_output`", "`max_output=`"},

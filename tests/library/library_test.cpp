@@ -75,7 +75,7 @@ TEST_CASE("messages about limits name members of this interface") {
     REQUIRE(word.status() == lsys::Status::Limit);
     const std::string text = word.messages().text();
     CAPTURE(text);
-    CHECK(text.find("`Limits::max_modules = ") != std::string::npos);
+    CHECK(text.find("`Limits::max_modules`") != std::string::npos);
     CHECK(text.find("--max-modules") == std::string::npos);
     project.limits = {};
     project.limits.max_bytes = 1000;

@@ -120,6 +120,10 @@ public:
 
 private:
     void answer(beast::error_code error) {
+        if (error == http::error::bad_method && skip_empty_line()) {
+            read();
+            return;
+        }
         if (error == http::error::header_limit) {
             refuse(http::status::request_header_fields_too_large);
             return;
@@ -150,6 +154,15 @@ private:
             asio::io_context& network = self->shared_.network;
             asio::post(network, [self = std::move(self)] { self->write(); });
         });
+    }
+
+    /// Skips an empty line before a request (RFC 9112, section 2.2). False if there is none.
+    bool skip_empty_line() {
+        const std::string_view text(static_cast<const char*>(buffer_.data().data()),
+                                    buffer_.size());
+        const bool is_empty = text.starts_with("\r\n");
+        buffer_.consume(is_empty ? 2 : 0);
+        return is_empty;
     }
 
     void respond() {

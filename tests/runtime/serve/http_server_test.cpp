@@ -175,6 +175,7 @@ TEST_CASE("the target of a request may name the host") {
     CHECK(body_of(ask(server.port(), request_of("http://here"))) == page);
     CHECK(body_of(ask(server.port(), request_of("http://here?a/b"))) == page);
     CHECK(body_of(ask(server.port(), "GET /health HTTP/1.0\r\n\r\n")) == "ok\n"); // no host
+    CHECK(body_of(ask(server.port(), "\r\n" + request_of("/health"))) == "ok\n");
 }
 
 TEST_CASE("connections beyond the limit are closed, and requests cut short do no harm") {
