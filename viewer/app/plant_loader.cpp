@@ -2,9 +2,7 @@
 #include "viewer/app/plant_loader.h"
 
 #include "runtime/base/out_of_memory.h"
-#include "runtime/pipeline/recorded_host.h"
 #include "runtime/pipeline/stopwatch.h"
-#include "runtime/program/host.h"
 #include "viewer/app/load_limit.h"
 
 #include <atomic>
@@ -21,16 +19,7 @@ make(const LoadRequest& request, const std::atomic<bool>& cancelled, MakingProgr
     outcome.changed_at = request.changed_at;
     outcome.files = {request.options.file};
     const LoadLimit limit(request.options.run.max_seconds, cancelled);
-    Host host = make_file_host(limit.stop(), request.options.run.files);
-    if (request.is_repeat) {
-        host.read_file = host.read_referenced_file; // a pipe in place of the file could block
-    }
-    Project project{record_files(std::move(host), outcome.files),
-                    request.options.run.limits,
-                    request.options.run.threads,
-                    {},
-                    request.options.run.environments,
-                    request.options.run.files};
+    Project project = loading_project(request.options.run, limit, request.is_repeat, outcome.files);
     progress.follow(project.host);
     const Stopwatch making;
     const auto work = [&] {
