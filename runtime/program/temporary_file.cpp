@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/program/temporary_file.h"
 
+#include "grammar/base/paths.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,8 +29,7 @@ constexpr std::size_t kMaxAddition = std::string_view(".lsys-abcdef.tmp").size()
 /// The part of `target` with which the paths of its temporary files begin: all of it, unless their
 /// names would be too long. Does not end within a character of UTF-8.
 std::string_view temporary_beginning(std::string_view target) {
-    const std::size_t slash = target.find_last_of('/');
-    const std::size_t name = slash == std::string_view::npos ? 0 : slash + 1;
+    const std::size_t name = folder_of_path(target).size();
     std::size_t end = std::min(target.size(), name + kMaxName - kMaxAddition);
     const auto is_within_character = [&target](std::size_t at) {
         return at < target.size() && (static_cast<unsigned char>(target[at]) & 0xC0U) == 0x80U;
