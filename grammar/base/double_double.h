@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arithmetic on sums of two binary64, which have about 106 bits (Dekker 1971).
+// Arithmetic on sums of two binary64, which have about 106 bits (Dekker 1971), and rounding to whole
+// numbers without a function of the mathematical library.
 #pragma once
 
 namespace lsys {
@@ -43,6 +44,12 @@ struct DoubleDouble {
 [[nodiscard]] constexpr DoubleDouble product(const DoubleDouble& a, const DoubleDouble& b) {
     const DoubleDouble high = exact_product(a.high, b.high);
     return ordered_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
+}
+
+/// A number of magnitude below 2^51 rounded to a whole number.
+[[nodiscard]] inline double nearest_whole(double x) {
+    constexpr double kShift = 0x1.8p52;
+    return (x + kShift) - kShift;
 }
 
 } // namespace lsys

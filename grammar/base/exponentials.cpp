@@ -78,12 +78,6 @@ constexpr Tables kTables = [] {
     return tables;
 }();
 
-/// A number of magnitude below 2^51 rounded to a whole number.
-double nearest_whole(double x) {
-    constexpr double kShift = 0x1.8p52;
-    return (x + kShift) - kShift;
-}
-
 constexpr int kMantissaBits = 52;
 constexpr int kBias = 1023;
 

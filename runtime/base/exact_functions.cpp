@@ -19,12 +19,6 @@ namespace lsys {
 
 namespace {
 
-/// A number of magnitude below 2^51 rounded to a whole number.
-double nearest_whole(double x) {
-    constexpr double kShift = 0x1.8p52;
-    return (x + kShift) - kShift;
-}
-
 /// `value` rounded to binary64; nullopt if an error of up to `error` could change the rounding (Ziv
 /// 1991).
 std::optional<double> rounded(const DoubleDouble& value, double error) {
